@@ -1,0 +1,40 @@
+//! Scenes: the user's RON text (`raw`) and what it means (`resolve`), in which nothing is left to decide.
+
+use crate::mimic::Energy;
+use crate::support::Support;
+use crate::view::View;
+
+/// A resolved scene: millimetres, every mesh loaded and placed, every default filled in.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Title for people.
+    pub title: String,
+    pub views: Vec<View>,
+    /// Pillars first, the base (if any) last.
+    pub supports: Vec<Support>,
+    pub energy: Energy,
+    pub printer: Printer,
+    pub output: Output,
+}
+
+/// The printer the checks have in mind, millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Printer {
+    pub nozzle: f64,
+    /// Width, depth, height of the build volume.
+    pub bed: [f64; 3],
+}
+
+/// Which files a build writes, and how large its pictures are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Output {
+    pub forest_3mf: bool,
+    pub forest_stl: bool,
+    pub forest_glb: bool,
+    pub plan: bool,
+    pub views: bool,
+    /// Side of one panel of a view picture, pixels.
+    pub picture_size: u32,
+    /// Width of plan.png, pixels.
+    pub plan_width: u32,
+}
