@@ -45,3 +45,78 @@ pub struct Support {
     /// Closed, outward oriented.
     pub mesh: TriMesh,
 }
+
+/// Thickness of relief kept behind the layer's back so that its deepest parts still print: two extrusions of a 0.4 mm nozzle.
+const BACKING_MM: f64 = 0.8;
+/// Never more than this share of what stands behind the layer, so that the backing stays inside a thin pillar.
+const BACKING_SHARE: f64 = 0.45;
+
+/// The layer of one support as one eye meets it: depths along rays, in units of each ray's direction vector.
+#[derive(Clone, Copy, Debug)]
+pub struct Slab {
+    eye: DVec3,
+    /// Unit, horizontal, from the eye to the support's axis.
+    towards: DVec3,
+    /// Horizontal distance from the eye to the datum plane, millimetres.
+    distance: f64,
+    layer: Layer,
+    /// How far the support reaches in front of and behind its axis plane, millimetres.
+    reach: (f64, f64),
+}
+
+impl Slab {
+    /// The layer of `support` seen from `eye`; `None` if the support carries nothing or the eye stands on its axis.
+    pub fn new(support: &Support, eye: DVec3) -> Option<Self> {
+        let layer = support.layer?;
+        let SupportKind::Pillar { axis, profile, .. } = &support.kind else { return None };
+        let offset = *axis - eye.truncate();
+        let distance = offset.length();
+        let towards = offset.try_normalize()?;
+        let along = profile.iter().map(|p| (*p - *axis).dot(towards));
+        let reach = along.fold((0.0f64, 0.0f64), |(front, back), d| (front.max(-d), back.max(d)));
+        Some(Self { eye, towards: towards.extend(0.0), distance, layer, reach })
+    }
+
+    /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support.
+    pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
+        match self.layer.datum {
+            Datum::AxisPlane => (self.plane(direction, -self.layer.front), self.plane(direction, self.layer.back)),
+            Datum::Surface => {
+                let mm = 1.0 / direction.length();
+                (surface - self.layer.front * mm, surface + self.layer.back * mm)
+            }
+        }
+    }
+
+    /// Depth on a ray of the plane `offset` millimetres behind the axis plane.
+    pub fn plane(&self, direction: DVec3, offset: f64) -> f64 {
+        (self.distance + offset) / direction.dot(self.towards)
+    }
+
+    /// How far behind the axis plane reliefs end in solid material, millimetres: behind every depth the layer allows.
+    pub fn backing(&self) -> f64 {
+        self.layer.back + BACKING_MM.min(BACKING_SHARE * self.behind())
+    }
+
+    /// How far behind the axis plane a relief may reach, millimetres.
+    pub fn deepest(&self) -> f64 {
+        self.layer.back
+    }
+
+    /// Material left behind the layer's back, millimetres; negative if the layer reaches through the support.
+    pub fn behind(&self) -> f64 {
+        self.reach.1 - self.layer.back
+    }
+
+    /// How far in front of the axis plane either the support or its layer reaches, millimetres.
+    pub fn front(&self) -> f64 {
+        match self.layer.datum {
+            Datum::AxisPlane => self.reach.0.max(self.layer.front),
+            Datum::Surface => self.reach.0 + self.layer.front,
+        }
+    }
+
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+}

@@ -1,4 +1,24 @@
 //! The optimisation: depths along the eye's rays that keep the model's normals within hard bounds.
+//!
+//! Takes a target, its view map and groups. Gives a relative depth `s` for every vertex of the optimised mesh and a scale `mu`
+//! for every group. Promises that `s / mu` obeys every bound at vertices exactly; at points inside faces the bounds were
+//! linearised and the relief clamps what is left (see `relief`).
+//!
+//! Symbols (paper): eye `o`; `lambda0` distance of a vertex from the eye in the model, `lambda` in the result;
+//! `s = lambda / lambda0` relative depth, `x = ln s`; `mu_g` scale of group `g`, `m_g = ln mu_g`; `w` vertex weights (Eq 13).
+
+mod curvature;
+mod normal;
+mod ordering;
+mod program;
+mod solve;
+
+pub use ordering::{Order, orders};
+pub use program::{Program, Row, RowKind};
+pub use solve::{SolveError, Solved, solve};
+
+use crate::groups::Groups;
+use crate::viewmap::{SupportField, Target, ViewMap};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,4 +50,52 @@ pub struct CurvatureOptions {
     /// Weight `w` of hidden vertices (paper Eq 13), visible ones count 1.
     pub hidden_weight: f64,
     pub ordering: bool,
+}
+
+/// The optimised depths of one view.
+#[derive(Clone, Debug)]
+pub struct Depths {
+    /// Relative depth of every target vertex; 1 where the vertex takes no part.
+    pub s: Vec<f64>,
+    /// Scale of every group; positive.
+    pub mu: Vec<f64>,
+    pub solved: Solved,
+}
+
+/// Finds the depths that minimise `energy` within the groups' bounds.
+///
+/// # Errors
+/// If the program is infeasible or the solver gives up; the error names the row that stands in the way.
+pub fn depths(energy: Energy, target: &Target, map: &ViewMap, field: &SupportField, groups: &Groups) -> Result<Depths, SolveError> {
+    let ordered = match energy {
+        Energy::Normal(o) => o.ordering,
+        Energy::Curvature(o) => o.ordering,
+    };
+    let orders = if ordered { orders(target, map, field, groups) } else { Vec::new() };
+    match energy {
+        Energy::Normal(options) => normal::depths(options, target, map, groups, &orders),
+        Energy::Curvature(options) => curvature::depths(options, target, map, groups, &orders),
+    }
+}
+
+/// The solid angle seen of every face, steradians.
+fn seen_solid_angles(target: &Target, map: &ViewMap) -> Vec<f64> {
+    let mut seen = vec![0.0; target.mesh.faces.len()];
+    for (c, cell) in map.cells.iter().enumerate() {
+        if let Some(f) = cell.face {
+            seen[f as usize] += map.solid_angle(c);
+        }
+    }
+    seen
+}
+
+/// The smallest scale that keeps a group within its upper bounds (the paper's choice among equal optima: as close to the
+/// support as the layer allows), in closed form because a regulariser does not determine it to the last digits.
+fn scales(groups: &Groups, s: &[f64]) -> Vec<f64> {
+    let mut mu = vec![f64::MIN_POSITIVE; groups.groups.len()];
+    for bound in &groups.bounds {
+        let slot = &mut mu[bound.group as usize];
+        *slot = slot.max(bound.anchor.relative_depth(s) / bound.upper);
+    }
+    mu
 }

@@ -1,0 +1,200 @@
+//! Depth groups and depth bounds: which parts of the image may move on their own, and how far.
+//!
+//! Takes a view map, its target and the supports. Gives the groups (connected image regions of one support and one mesh
+//! component, each with a scale `mu_g` of its own, paper Eq 11) and for every point where the map's lines meet inside a group
+//! the relative depths `s = lambda / lambda0` allowed there. Because `1/lambda` is affine on a face and on a plane, bounds at
+//! all corners of all cells bound the relief everywhere in a flat layer; over a curved datum they hold at the corners only.
+
+use crate::diag::Diagnostic;
+use crate::geom::barycentric;
+use crate::mesh::{TriMesh, edges};
+use crate::support::Slab;
+use crate::viewmap::{SupportField, Target, ViewMap};
+
+/// Barycentric weights below this are rounding: the point lies on the opposite side or corner.
+const ON_SIDE: f64 = 1e-6;
+
+/// A connected region of the image on one support, of one mesh component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    pub support: u32,
+    pub component: u32,
+    /// Cells of the view map, rising.
+    pub cells: Vec<u32>,
+    pub solid_angle_sr: f64,
+}
+
+/// A point of the target surface as a mix of its vertices: `1 / s = sum of weight / s_vertex`, weights positive with sum 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    pub vertices: [u32; 3],
+    pub weights: [f64; 3],
+}
+
+impl Anchor {
+    /// The vertices that matter with their weights.
+    pub fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
+        let (vertices, weights) = (self.vertices, self.weights);
+        (0..3).filter(move |k| weights[*k] > 0.0).map(move |k| (vertices[k] as usize, weights[k]))
+    }
+
+    /// Relative depth of the point from those of all vertices (design: harmonic, because `1/lambda` is linear in the image).
+    pub fn relative_depth(&self, s: &[f64]) -> f64 {
+        1.0 / self.terms().map(|(v, w)| w / s[v]).sum::<f64>()
+    }
+}
+
+/// `lower <= s / mu_g <= upper` at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    pub group: u32,
+    pub anchor: Anchor,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Groups {
+    pub groups: Vec<Group>,
+    /// Group of every cell of the map.
+    pub of_cell: Vec<Option<u32>>,
+    pub bounds: Vec<Bound>,
+    /// The layer of every support from this eye.
+    pub slabs: Vec<Option<Slab>>,
+}
+
+/// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
+pub fn anchor(target: &Target, face: usize, q: glam::DVec2) -> (Anchor, f64) {
+    let [a, b, c] = target.image_of(face);
+    let vertices = target.mesh.faces[face];
+    let mut beta = barycentric(a, b, c, q).to_array().map(|w| if w > ON_SIDE { w } else { 0.0 });
+    if !beta.iter().sum::<f64>().is_normal() {
+        beta = [1.0, 0.0, 0.0];
+    }
+    let sum: f64 = beta.iter().sum();
+    let inverse = [0, 1, 2].map(|k| beta[k] / sum / target.depth[vertices[k] as usize]);
+    let total: f64 = inverse.iter().sum();
+    (Anchor { vertices, weights: inverse.map(|w| w / total) }, 1.0 / total)
+}
+
+/// Groups and bounds of a view.
+///
+/// # Errors
+/// Supports whose layer reaches through them or leaves less than their minimum core, as this eye sees them.
+pub fn groups(view: &str, map: &ViewMap, target: &Target, field: &SupportField) -> Result<Groups, Vec<Diagnostic>> {
+    let slabs: Vec<Option<Slab>> = field.supports.iter().map(|s| Slab::new(s, map.plane.eye)).collect();
+    let component = components(&target.mesh);
+    let carries = |c: usize| {
+        let cell = map.cells[c];
+        let support = cell.support.filter(|s| slabs[*s as usize].is_some())?;
+        Some((support, component[cell.face? as usize]))
+    };
+    let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(carries).collect();
+    let (groups, of_cell) = regions(map, &labels);
+    check_layers(view, &groups, field, &slabs)?;
+    let bounds = bounds(map, target, field, &of_cell, &slabs);
+    Ok(Groups { groups, of_cell, bounds, slabs })
+}
+
+/// Connected component of every face, by shared edges, numbered by first face.
+fn components(mesh: &TriMesh) -> Vec<u32> {
+    let mut parent: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+    for edge in edges(mesh) {
+        edge.faces.windows(2).for_each(|f| join(&mut parent, f[0], f[1]));
+    }
+    (0..parent.len() as u32).map(|f| root(&mut parent, f)).collect()
+}
+
+/// Root of `i` in a union-find forest whose roots are the smallest members.
+pub fn root(parent: &mut [u32], mut i: u32) -> u32 {
+    while parent[i as usize] != i {
+        parent[i as usize] = parent[parent[i as usize] as usize];
+        i = parent[i as usize];
+    }
+    i
+}
+
+/// Joins the sets of `i` and `j`.
+pub fn join(parent: &mut [u32], i: u32, j: u32) {
+    let (i, j) = (root(parent, i), root(parent, j));
+    parent[i.max(j) as usize] = i.min(j);
+}
+
+/// Flood fill over equal labels.
+fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Option<u32>>) {
+    let mut of_cell = vec![None; labels.len()];
+    let mut groups = Vec::new();
+    for seed in 0..labels.len() {
+        let Some((support, component)) = labels[seed].filter(|_| of_cell[seed].is_none()) else { continue };
+        let id = groups.len() as u32;
+        let mut cells = Vec::new();
+        let mut stack = vec![seed as u32];
+        of_cell[seed] = Some(id);
+        while let Some(c) = stack.pop() {
+            cells.push(c);
+            for n in map.neighbours[c as usize].iter().flatten() {
+                if of_cell[*n as usize].is_none() && labels[*n as usize] == labels[seed] {
+                    of_cell[*n as usize] = Some(id);
+                    stack.push(*n);
+                }
+            }
+        }
+        cells.sort_unstable();
+        let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
+        groups.push(Group { support, component, cells, solid_angle_sr });
+    }
+    (groups, of_cell)
+}
+
+fn check_layers(view: &str, groups: &[Group], field: &SupportField, slabs: &[Option<Slab>]) -> Result<(), Vec<Diagnostic>> {
+    let mut used: Vec<u32> = groups.iter().map(|g| g.support).collect();
+    used.sort_unstable();
+    used.dedup();
+    let mut errors = Vec::new();
+    for s in used {
+        let support = &field.supports[s as usize];
+        let (Some(slab), Some(layer)) = (slabs[s as usize], support.layer) else { continue };
+        if slab.behind() < layer.core {
+            errors.push(
+                Diagnostic::error(format!(
+                    "{} leaves {:.2} mm behind its layer as seen from view \"{view}\", but the minimum core is {:.2} mm",
+                    support.name,
+                    slab.behind(),
+                    layer.core
+                ))
+                .help(format!("lower the layer's back from {:.2} to {:.2} mm, or make the pillar thicker", layer.back, layer.back - layer.core + slab.behind())),
+            );
+        }
+    }
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
+fn bounds(map: &ViewMap, target: &Target, field: &SupportField, of_cell: &[Option<u32>], slabs: &[Option<Slab>]) -> Vec<Bound> {
+    // One bound for each group, point and set of vertices: cells that share a corner on a mesh vertex or edge agree there.
+    let mut keyed: Vec<((u32, u32, [u32; 3]), Bound)> = Vec::new();
+    for (c, cell) in map.cells.iter().enumerate() {
+        let (Some(group), Some(face), Some(support)) = (of_cell[c], cell.face, cell.support) else { continue };
+        let Some(slab) = slabs[support as usize] else { continue };
+        for p in cell.corners {
+            let q = map.points[p as usize];
+            let (anchor, depth) = anchor(target, face as usize, q);
+            let (near, far) = layer_at(map, field, &slab, support, q);
+            let mut key = [0, 1, 2].map(|k| if anchor.weights[k] > 0.0 { anchor.vertices[k] } else { u32::MAX });
+            key.sort_unstable();
+            keyed.push(((group, p, key), Bound { group, anchor, lower: near / depth, upper: far / depth }));
+        }
+    }
+    keyed.sort_by_key(|x| x.0);
+    keyed.dedup_by_key(|x| x.0);
+    keyed.into_iter().map(|x| x.1).collect()
+}
+
+/// Smallest and largest depth (along the image plane's forward axis) the layer of `support` allows on the ray `q`.
+pub fn layer_at(map: &ViewMap, field: &SupportField, slab: &Slab, support: u32, q: glam::DVec2) -> (f64, f64) {
+    let direction = map.plane.direction(q);
+    let on_axis = slab.plane(direction, 0.0);
+    // At the outline the ray may just miss the support: the axis plane is where the surface ends there.
+    let surface = field.first_hit(map.plane.eye, direction).filter(|h| h.0 == support).map_or(on_axis, |h| h.1);
+    slab.bounds(direction, surface)
+}

@@ -1,0 +1,131 @@
+//! The paper's curvature energy (Eq 9, weights Eq 13) in relative depths `s`, on the whole mesh.
+//!
+//! Row of vertex `i`: `w_i / sqrt(A_i) * sum over j of c_ij v_j (s_j - s_i)`, three coordinates, `v_j` from the eye. With
+//! `s = lambda / lambda0` instead of `lambda` this is the same problem, better scaled; written in differences it is exactly
+//! zero for `s = 1`. Bounds are Eq 11. The gauge is a mean of 1 of the area-weighted `s` over each block of components and
+//! groups that hang together: the paper pins one vertex, but then the result depends on which.
+
+use super::ordering::Order;
+use super::program::{Program, Quadratic, Row, RowKind};
+use super::{CurvatureOptions, Depths, SolveError, scales, solve};
+use crate::groups::{Groups, join, root};
+use crate::laplacian::FaceGeometry;
+use crate::viewmap::{Target, ViewMap};
+use glam::DVec3;
+
+/// Weight of `mu^2` relative to the mean diagonal (the paper's alpha): 1e-12 to 1e-7 give the same surface.
+const ALPHA: f64 = 1e-9;
+
+/// Depths of the whole mesh.
+pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups: &Groups, orders: &[Order]) -> Result<Depths, SolveError> {
+    let n = target.mesh.vertices.len();
+    let geometry = FaceGeometry::new(&target.mesh);
+    let areas = geometry.vertex_areas(&target.mesh);
+    let used: Vec<bool> = areas.iter().map(|a| *a > 0.0).collect();
+    let mut quadratic = Quadratic::new(n + groups.groups.len());
+    let visible = visible_vertices(target, map);
+    let forms = vertex_forms(target, &geometry, map.plane.eye);
+    let weight = |i: usize| if visible[i] { 1.0 } else { options.hidden_weight * options.hidden_weight } / areas[i];
+    // Twice the square of a form adds its squared coefficients to the diagonal: the mean scales the program to order one.
+    let trace: f64 = (0..n).filter(|i| used[*i]).map(|i| 2.0 * weight(i) * forms[i].iter().map(|t| t.1.length_squared()).sum::<f64>()).sum();
+    let mean = trace / n as f64;
+    for i in (0..n).filter(|i| used[*i]) {
+        for axis in 0..3 {
+            let terms: Vec<(usize, f64)> = forms[i].iter().map(|(j, v)| (*j, v[axis])).collect();
+            quadratic.form(&terms, weight(i) / mean);
+        }
+    }
+    (0..groups.groups.len()).for_each(|g| quadratic.square(n + g, ALPHA));
+    (0..n).filter(|i| !used[*i]).for_each(|i| quadratic.square(i, 1.0));
+    let program = Program {
+        variables: n + groups.groups.len(),
+        quadratic: quadratic.finish(),
+        equalities: gauge(target, groups, orders, &areas),
+        rows: rows(n, groups, orders),
+    };
+    let (u, solved) = solve(&program)?;
+    let s: Vec<f64> = (0..n).map(|i| if used[i] { u[i] } else { 1.0 }).collect();
+    Ok(Depths { mu: scales(groups, &s), s, solved })
+}
+
+/// Vertices at which the view map shows a face of theirs.
+fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
+    let mut visible = vec![false; target.mesh.vertices.len()];
+    for cell in &map.cells {
+        let Some(face) = cell.face else { continue };
+        for p in cell.corners {
+            let (anchor, _) = crate::groups::anchor(target, face as usize, map.points[p as usize]);
+            if let Some(k) = (0..3).find(|k| anchor.weights[*k] == 1.0) {
+                visible[anchor.vertices[k] as usize] = true;
+            }
+        }
+    }
+    visible
+}
+
+/// For every vertex the coefficients (vectors) of `sum of c_ij v_j (s_j - s_i)`: neighbours first, itself last.
+fn vertex_forms(target: &Target, geometry: &FaceGeometry, eye: DVec3) -> Vec<Vec<(usize, DVec3)>> {
+    let mesh = &target.mesh;
+    let mut sides: Vec<(u32, u32, f64)> = Vec::with_capacity(6 * mesh.faces.len());
+    for (f, face) in mesh.faces.iter().enumerate() {
+        for k in 0..3 {
+            let (i, j, c) = (face[(k + 1) % 3], face[(k + 2) % 3], geometry.cotangents[f][k] / 2.0);
+            sides.extend([(i, j, c), (j, i, c)]);
+        }
+    }
+    sides.sort_by_key(|s| (s.0, s.1));
+    let mut forms: Vec<Vec<(usize, DVec3)>> = vec![Vec::new(); mesh.vertices.len()];
+    for pair in sides.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        let (i, j) = (pair[0].0 as usize, pair[0].1 as usize);
+        let c: f64 = pair.iter().map(|s| s.2).sum();
+        forms[i].push((j, c * (mesh.vertices[j] - eye)));
+    }
+    for (i, form) in forms.iter_mut().enumerate() {
+        let sum: DVec3 = form.iter().map(|t| t.1).sum();
+        form.push((i, -sum));
+    }
+    forms
+}
+
+/// One equality a block: the area-weighted mean of `s` is 1.
+fn gauge(target: &Target, groups: &Groups, orders: &[Order], areas: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
+    let n = areas.len();
+    let mut parent: Vec<u32> = (0..(n + groups.groups.len()) as u32).collect();
+    for face in &target.mesh.faces {
+        join(&mut parent, face[0], face[1]);
+        join(&mut parent, face[1], face[2]);
+    }
+    for bound in &groups.bounds {
+        join(&mut parent, bound.anchor.vertices[0], n as u32 + bound.group);
+    }
+    for order in orders {
+        join(&mut parent, order.front.vertices[0], order.back.vertices[0]);
+    }
+    let mut members: Vec<(u32, usize)> = (0..n).filter(|i| areas[*i] > 0.0).map(|i| (root(&mut parent, i as u32), i)).collect();
+    members.sort_unstable();
+    let block = |b: &[(u32, usize)]| {
+        let total: f64 = b.iter().map(|m| areas[m.1]).sum();
+        (b.iter().map(|m| (m.1, areas[m.1] / total)).collect(), 1.0)
+    };
+    members.chunk_by(|x, y| x.0 == y.0).map(block).collect()
+}
+
+/// Bounds (Eq 11) and orders within groups (Eq 12), with harmonic means taken as arithmetic ones.
+fn rows(n: usize, groups: &Groups, orders: &[Order]) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(2 * groups.bounds.len() + orders.len());
+    for (i, bound) in groups.bounds.iter().enumerate() {
+        let mu = n + bound.group as usize;
+        let mut far: Vec<(usize, f64)> = bound.anchor.terms().collect();
+        let mut near: Vec<(usize, f64)> = far.iter().map(|(j, v)| (*j, -v)).collect();
+        far.push((mu, -bound.upper));
+        near.push((mu, bound.lower));
+        rows.push(Row { kind: RowKind::Far(i as u32), terms: far, limit: 0.0 });
+        rows.push(Row { kind: RowKind::Near(i as u32), terms: near, limit: 0.0 });
+    }
+    for (i, order) in orders.iter().enumerate().filter(|(_, o)| o.front_group == o.back_group) {
+        let mut terms: Vec<(usize, f64)> = order.front.terms().map(|(j, v)| (j, v * order.ratio)).collect();
+        terms.extend(order.back.terms().map(|(j, v)| (j, -v)));
+        rows.push(Row { kind: RowKind::Order(i as u32), terms, limit: 0.0 });
+    }
+    rows
+}

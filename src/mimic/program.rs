@@ -1,0 +1,77 @@
+//! A convex quadratic program in the form every energy is brought to: minimise `u'Pu / 2` subject to sparse rows.
+
+use sprs::{CsMat, TriMat};
+
+/// What a row stands for, so that an error can name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowKind {
+    /// The near limit of a bound (by index).
+    Near(u32),
+    /// The far limit of a bound (by index).
+    Far(u32),
+    /// A depth order (by index).
+    Order(u32),
+}
+
+/// `sum of coefficient * u[variable] <= limit`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    pub kind: RowKind,
+    pub terms: Vec<(usize, f64)>,
+    pub limit: f64,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub variables: usize,
+    /// Upper triangle of `P`, `variables` x `variables`, compressed columns.
+    pub quadratic: CsMat<f64>,
+    /// Equalities `sum = value`.
+    pub equalities: Vec<(Vec<(usize, f64)>, f64)>,
+    pub rows: Vec<Row>,
+}
+
+/// Gathers `P` term by term.
+pub struct Quadratic {
+    triplets: TriMat<f64>,
+}
+
+impl Quadratic {
+    pub fn new(variables: usize) -> Self {
+        Self { triplets: TriMat::new((variables, variables)) }
+    }
+
+    /// Adds `weight * (u_i - u_j)^2`.
+    pub fn difference(&mut self, i: usize, j: usize, weight: f64) {
+        self.square(i, weight);
+        self.square(j, weight);
+        self.triplets.add_triplet(i.min(j), i.max(j), -2.0 * weight);
+    }
+
+    /// Adds `weight * u_i^2`.
+    pub fn square(&mut self, i: usize, weight: f64) {
+        self.triplets.add_triplet(i, i, 2.0 * weight);
+    }
+
+    /// Adds `weight * (sum of coefficient * u)^2`.
+    pub fn form(&mut self, terms: &[(usize, f64)], weight: f64) {
+        for (n, &(i, a)) in terms.iter().enumerate() {
+            self.square(i, weight * a * a);
+            for &(j, b) in &terms[n + 1..] {
+                self.triplets.add_triplet(i.min(j), i.max(j), 2.0 * weight * a * b);
+            }
+        }
+    }
+
+    /// The upper triangle.
+    pub fn finish(self) -> CsMat<f64> {
+        self.triplets.to_csc()
+    }
+}
+
+/// Mean of the diagonal of the first `n` variables: the scale regularisers are relative to.
+pub fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
+    let sum: f64 = quadratic.iter().filter(|(_, (i, j))| i == j && *i < n).map(|(v, _)| v).sum();
+    sum / n.max(1) as f64
+}

@@ -1,0 +1,43 @@
+//! Reliefs: the optimised surface cut at the view map's lines and scaled back onto its supports.
+//!
+//! Takes depths and groups. Gives, for every cell of the view map that carries a relief, the depth of its three corners:
+//! the model's face there, scaled by `s`, divided by the group's `mu` (never multiplied), clamped to the layer. Because
+//! `1/lambda` is affine over a cell, corners inside a flat layer keep the whole cell inside. The largest clamp is reported.
+//! A height field over the view map cannot overlap itself as the eye sees it; `block` makes it a closed solid.
+
+mod block;
+
+pub use block::{Block, block};
+
+use crate::groups::{Groups, anchor, layer_at};
+use crate::mimic::Depths;
+use crate::viewmap::{SupportField, Target, ViewMap};
+
+/// The cut and scaled-back surface of one view.
+#[derive(Clone, Debug)]
+pub struct Relief {
+    /// Depth along the forward axis of each cell's corners; `None` where the cell carries nothing. Index: cell.
+    pub depth: Vec<Option<[f64; 3]>>,
+    /// Largest distance a corner was moved along its ray to stay in its layer, millimetres: what linearised bounds left over.
+    pub clamp_mm: f64,
+}
+
+/// Cuts and scales back.
+pub fn relief(map: &ViewMap, target: &Target, field: &SupportField, groups: &Groups, depths: &Depths) -> Relief {
+    let mut clamp_mm = 0.0f64;
+    let mut depth = vec![None; map.cells.len()];
+    for (c, cell) in map.cells.iter().enumerate() {
+        let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support) else { continue };
+        let Some(slab) = groups.slabs[support as usize] else { continue };
+        depth[c] = Some(cell.corners.map(|p| {
+            let q = map.points[p as usize];
+            let (anchor, model_depth) = anchor(target, face as usize, q);
+            let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
+            let (near, far) = layer_at(map, field, &slab, support, q);
+            let kept = free.clamp(near, far.max(near));
+            clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
+            kept
+        }));
+    }
+    Relief { depth, clamp_mm }
+}

@@ -1,0 +1,103 @@
+//! The arrangement itself: a constrained Delaunay triangulation split at crossings. The only module that names `spade`.
+
+use super::outline::Segment;
+use super::{Cell, Target, ViewMap, ViewMapError, image_box};
+use crate::geom::ImagePlane;
+use glam::DVec2;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Snapping grids tried in turn, as shares of the window: `spade` can fail on points 1e-9 apart, and then a coarser grid helps.
+const GRIDS: [f64; 3] = [1.0 / (1u64 << 26) as f64, 1.0 / (1u64 << 23) as f64, 1.0 / (1u64 << 20) as f64];
+
+/// Triangulates the window with the edges of the wanted faces and the outlines as constraints. Labels are left empty.
+pub fn arrange(plane: &ImagePlane, target: &Target, wanted: &[bool], outlines: &[Segment]) -> Result<ViewMap, ViewMapError> {
+    let segments = segments(target, wanted, outlines);
+    let (lo, hi) = image_box(target);
+    let mut reason = String::new();
+    for grid in GRIDS {
+        let snap = Snap { origin: lo, step: (hi - lo).max_element() * grid };
+        // Last resort against a panic of the triangulation on degenerate input: the next grid, then an error.
+        match catch_unwind(AssertUnwindSafe(|| triangulate(&segments, (lo, hi), &snap))) {
+            Ok(Ok((points, cells))) => {
+                let neighbours = neighbours(&cells);
+                return Ok(ViewMap { plane: *plane, points, cells, neighbours, doubtful_sr: 0.0 });
+            }
+            Ok(Err(e)) => reason = e,
+            Err(_) => reason = "degenerate constraints".into(),
+        }
+    }
+    Err(ViewMapError::Triangulation(reason))
+}
+
+/// Edges of wanted faces, each once, then the outlines.
+fn segments(target: &Target, wanted: &[bool], outlines: &[Segment]) -> Vec<Segment> {
+    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    for (f, face) in target.mesh.faces.iter().enumerate().filter(|(f, _)| wanted[*f]) {
+        let _ = f;
+        pairs.extend((0..3).map(|k| (face[k].min(face[(k + 1) % 3]), face[k].max(face[(k + 1) % 3]))));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let image = |v: u32| target.image[v as usize];
+    pairs.iter().map(|&(a, b)| [image(a), image(b)]).chain(outlines.iter().copied()).collect()
+}
+
+struct Snap {
+    origin: DVec2,
+    step: f64,
+}
+
+impl Snap {
+    fn key(&self, q: DVec2) -> (i64, i64) {
+        let k = ((q - self.origin) / self.step).round();
+        (k.x as i64, k.y as i64)
+    }
+
+    fn point(&self, key: (i64, i64)) -> DVec2 {
+        self.origin + self.step * DVec2::new(key.0 as f64, key.1 as f64)
+    }
+}
+
+type Triangles = (Vec<DVec2>, Vec<Cell>);
+
+fn triangulate(segments: &[Segment], (lo, hi): (DVec2, DVec2), snap: &Snap) -> Result<Triangles, String> {
+    // Distinct snapped points in a fixed order; the window's corners keep everything inside the hull.
+    let frame = [lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
+    let mut keys: Vec<(i64, i64)> = segments.iter().flatten().chain(&frame).map(|q| snap.key(*q)).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let index = |q: &DVec2| keys.binary_search(&snap.key(*q)).map_err(|_| "lost point".to_string());
+    let points: Vec<Point2<f64>> = keys.iter().map(|k| snap.point(*k)).map(|p| Point2::new(p.x, p.y)).collect();
+    let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points, Vec::new()).map_err(|e| e.to_string())?;
+    for [a, b] in segments {
+        let (a, b) = (index(a)?, index(b)?);
+        if a != b {
+            let (a, b) = (spade::handles::FixedVertexHandle::from_index(a), spade::handles::FixedVertexHandle::from_index(b));
+            cdt.add_constraint_and_split(a, b, |p| p);
+        }
+    }
+    let points = cdt.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect();
+    let corners = cdt.inner_faces().map(|f| f.vertices().map(|v| v.fix().index() as u32));
+    Ok((points, corners.map(|corners| Cell { corners, face: None, support: None }).collect()))
+}
+
+/// For every cell the cells across its three sides.
+pub fn neighbours(cells: &[Cell]) -> Vec<[Option<u32>; 3]> {
+    let mut sides: Vec<(u32, u32, u32, usize)> = Vec::with_capacity(3 * cells.len());
+    for (c, cell) in cells.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (cell.corners[k], cell.corners[(k + 1) % 3]);
+            sides.push((a.min(b), a.max(b), c as u32, k));
+        }
+    }
+    sides.sort_unstable();
+    let mut result = vec![[None; 3]; cells.len()];
+    for pair in sides.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        if let [x, y] = pair {
+            result[x.2 as usize][x.3] = Some(y.2);
+            result[y.2 as usize][y.3] = Some(x.2);
+        }
+    }
+    result
+}

@@ -1,0 +1,243 @@
+//! The view map: what one eye sees, and on which support, as a planar arrangement of its image.
+//!
+//! Takes the image plane of an eye, the mesh it is to see and the supports with their ray casters.
+//! Gives a triangulation of the image in which every cell lies in one model face (the front-most, or none) and on one
+//! support (the first hit, or none), with solid angles. Promises: cells are counter-clockwise, share their points,
+//! do not overlap and cover a rectangle around the model; no cell is thinner than [`TIDY_MM`] at the model's distance
+//! except where the triangulation cannot give way. Does *not* promise anything about depth.
+//!
+//! The edges of every face that is seen at all and the seen parts of the supports' outlines are constraints of a
+//! constrained Delaunay triangulation (`spade`, split at crossings). Labels come from one ray a cell; a cell that
+//! sticks out of the face its ray met proves that a face is missing, which is then found, added, and the map rebuilt.
+
+mod arrange;
+mod outline;
+mod tidy;
+
+use crate::bvh::Bvh;
+use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
+use crate::mesh::{TriMesh, edges};
+use crate::support::{Support, SupportKind};
+use glam::{DVec2, DVec3};
+
+/// Cells thinner than this, in millimetres at the model's mean distance, are merged away: below it, f32 coordinates and
+/// exact intersection tests of finished solids no longer agree (0.0005 leaves some crossings), above it lines visibly shift.
+pub const TIDY_MM: f64 = 0.002;
+
+/// Rounds of finding faces that the first guess missed. The creatures and scans need two or three.
+const MAX_ROUNDS: usize = 5;
+
+/// One triangle of the image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Indices of image points, counter-clockwise.
+    pub corners: [u32; 3],
+    /// The model face seen here.
+    pub face: Option<u32>,
+    /// The support first hit here.
+    pub support: Option<u32>,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct ViewMap {
+    pub plane: ImagePlane,
+    pub points: Vec<DVec2>,
+    pub cells: Vec<Cell>,
+    /// The cell across the side from corner `k` to `k + 1`.
+    pub neighbours: Vec<[Option<u32>; 3]>,
+    /// Solid angle in steradians of cells whose label was still in doubt after the last round: 0 unless faces are tangled.
+    pub doubtful_sr: f64,
+}
+
+impl ViewMap {
+    pub fn triangle(&self, cell: usize) -> [DVec2; 3] {
+        self.cells[cell].corners.map(|p| self.points[p as usize])
+    }
+
+    /// Mean of three image points.
+    pub fn points_mean(&self, corners: [u32; 3]) -> DVec2 {
+        corners.iter().map(|p| self.points[*p as usize]).sum::<DVec2>() / 3.0
+    }
+
+    /// Solid angle of a cell in steradians.
+    pub fn solid_angle(&self, cell: usize) -> f64 {
+        let [a, b, c] = self.triangle(cell).map(|q| self.plane.direction(q));
+        solid_angle(a, b, c).abs()
+    }
+}
+
+/// The supports as one target for rays.
+pub struct SupportField<'a> {
+    pub supports: &'a [Support],
+    mesh: TriMesh,
+    owner: Vec<u32>,
+    bvh: Bvh,
+}
+
+impl<'a> SupportField<'a> {
+    pub fn new(supports: &'a [Support]) -> Self {
+        let mut mesh = TriMesh::default();
+        let mut owner = Vec::new();
+        for (i, support) in supports.iter().enumerate() {
+            mesh.append(&support.mesh);
+            owner.resize(mesh.faces.len(), i as u32);
+        }
+        let bvh = Bvh::new(&mesh);
+        Self { supports, mesh, owner, bvh }
+    }
+
+    /// The first support on a ray and the ray's parameter there.
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
+        self.bvh.first_hit(origin, direction).map(|h| (self.owner[h.face], h.t))
+    }
+
+    /// Top of the base, if there is one.
+    fn base_top(&self) -> Option<f64> {
+        self.supports.iter().find_map(|s| match s.kind {
+            SupportKind::Base { top, .. } => Some(top),
+            SupportKind::Pillar { .. } => None,
+        })
+    }
+}
+
+/// What is looked at, ready for rays.
+pub struct Target {
+    pub mesh: TriMesh,
+    pub bvh: Bvh,
+    /// Image of every vertex in the plane the target was made for.
+    pub image: Vec<DVec2>,
+    /// Depth of every vertex along the plane's forward axis.
+    pub depth: Vec<f64>,
+    /// Whether every edge has two faces: then only faces turned to the eye can be seen.
+    closed: bool,
+}
+
+impl Target {
+    /// `None` if part of the mesh does not lie in front of the eye.
+    pub fn new(mesh: TriMesh, plane: &ImagePlane) -> Option<Self> {
+        let image = mesh.vertices.iter().map(|v| plane.project(*v)).collect::<Option<Vec<_>>>()?;
+        let depth = mesh.vertices.iter().map(|v| plane.depth(*v)).collect();
+        let closed = edges(&mesh).iter().all(|e| e.faces.len() == 2);
+        Some(Self { bvh: Bvh::new(&mesh), mesh, image, depth, closed })
+    }
+
+    pub fn image_of(&self, face: usize) -> [DVec2; 3] {
+        self.mesh.faces[face].map(|v| self.image[v as usize])
+    }
+
+    /// Whether the face could be seen from the eye if nothing stood before it.
+    fn may_be_seen(&self, face: usize) -> bool {
+        let [a, b, c] = self.image_of(face);
+        let turn = orient(a, b, c);
+        turn > 0.0 || (turn < 0.0 && !self.closed)
+    }
+}
+
+/// Why no view map could be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ViewMapError {
+    #[error("no part of the models is seen from the eye")]
+    NothingSeen,
+    #[error("the image could not be triangulated: {0}")]
+    Triangulation(String),
+}
+
+/// Computes the view map of `target` over `supports`.
+///
+/// # Errors
+/// If no face is seen, or the triangulation fails on every snapping grid tried.
+pub fn view_map(plane: ImagePlane, target: &Target, supports: &SupportField) -> Result<ViewMap, ViewMapError> {
+    let mut wanted = seen_at_samples(&plane, target);
+    if !wanted.iter().any(|w| *w) {
+        return Err(ViewMapError::NothingSeen);
+    }
+    let outlines = outline::seen_outlines(&plane, supports, image_box(target));
+    let mut map = arrange::arrange(&plane, target, &wanted, &outlines)?;
+    let mut doubtful = label(&mut map, target, supports);
+    for _ in 1..MAX_ROUNDS {
+        let missing = missing_faces(&map, target, &doubtful, &wanted);
+        if missing.is_empty() {
+            break;
+        }
+        missing.iter().for_each(|f| wanted[*f] = true);
+        map = arrange::arrange(&plane, target, &wanted, &outlines)?;
+        doubtful = label(&mut map, target, supports);
+    }
+    map.doubtful_sr = doubtful.iter().map(|c| map.solid_angle(*c)).sum();
+    tidy::tidy(&mut map, TIDY_MM / mean(&target.depth));
+    Ok(map)
+}
+
+/// The rectangle around the model's image, a little widened: the part of the image that is mapped.
+fn image_box(target: &Target) -> (DVec2, DVec2) {
+    let first = target.image[0];
+    let (lo, hi) = target.image.iter().fold((first, first), |(lo, hi), q| (lo.min(*q), hi.max(*q)));
+    let margin = 0.02 * (hi - lo).max_element();
+    (lo - margin, hi + margin)
+}
+
+/// Faces seen at their centre or near a corner.
+fn seen_at_samples(plane: &ImagePlane, target: &Target) -> Vec<bool> {
+    let is_seen = |f: usize| {
+        let corners = target.image_of(f);
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let samples = [centre, centre.lerp(corners[0], 0.9), centre.lerp(corners[1], 0.9), centre.lerp(corners[2], 0.9)];
+        samples.iter().any(|q| seen_face(plane, target, *q) == Some(f))
+    };
+    (0..target.mesh.faces.len()).map(|f| target.may_be_seen(f) && is_seen(f)).collect()
+}
+
+/// The front-most face on the ray `q`.
+fn seen_face(plane: &ImagePlane, target: &Target, q: DVec2) -> Option<usize> {
+    let hit = target.bvh.first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
+    hit.map(|h| h.face)
+}
+
+/// Labels every cell by a ray through its centre; gives the cells that stick out of their face.
+fn label(map: &mut ViewMap, target: &Target, supports: &SupportField) -> Vec<usize> {
+    let mut doubtful = Vec::new();
+    for c in 0..map.cells.len() {
+        let corners = map.triangle(c);
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let face = seen_face(&map.plane, target, centre);
+        map.cells[c].face = face.map(|f| f as u32);
+        map.cells[c].support = supports.first_hit(map.plane.eye, map.plane.direction(centre)).map(|h| h.0);
+        if face.is_some_and(|f| !holds(target.image_of(f), corners)) {
+            doubtful.push(c);
+        }
+    }
+    doubtful
+}
+
+/// Whether `outer` holds all points of `inner` but for rounding.
+fn holds(outer: [DVec2; 3], inner: [DVec2; 3]) -> bool {
+    let [a, b, c] = outer;
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    let area = (b - a).perp_dot(c - a).abs();
+    // A point may lie outside by 1e-7 of the image: ten times the snapping grid, a fortieth of a micrometre at 250 mm.
+    let slack = 1e-7 * longest / area + 1e-9;
+    inner.iter().all(|q| barycentric(a, b, c, *q).min_element() >= -slack)
+}
+
+/// Faces not yet wanted that rays near the corners of doubtful cells meet.
+fn missing_faces(map: &ViewMap, target: &Target, doubtful: &[usize], wanted: &[bool]) -> Vec<usize> {
+    let mut found = Vec::new();
+    for c in doubtful {
+        let corners = map.triangle(*c);
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        for share in [0.0, 0.5, 0.98] {
+            for corner in corners {
+                found.extend(seen_face(&map.plane, target, centre.lerp(corner, share)));
+            }
+        }
+    }
+    found.retain(|f| !wanted[*f]);
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}

@@ -1,0 +1,112 @@
+//! The outlines of the supports as the eye sees them.
+
+use super::SupportField;
+use crate::geom::{ImagePlane, segment_crossing};
+use crate::mesh::{TriMesh, edges};
+use crate::support::SupportKind;
+use glam::{DVec2, DVec3};
+
+/// A piece of outline in the image.
+pub type Segment = [DVec2; 2];
+
+/// An outline edge in space with its image and inverse depths.
+struct Line {
+    image: Segment,
+    inverse_depth: [f64; 2],
+}
+
+/// The pieces of all supports' outlines inside the rectangle `window` that are not hidden by another support.
+pub fn seen_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)) -> Vec<Segment> {
+    let mut lines: Vec<Line> = silhouette(&field.mesh, plane.eye).iter().filter_map(|e| line(plane, *e)).collect();
+    lines.extend(feet(field).iter().filter_map(|e| line(plane, *e)));
+    lines.retain_mut(|l| clip(l, window));
+    let mut seen = Vec::new();
+    for (i, l) in lines.iter().enumerate() {
+        let cuts = cuts(&lines, i);
+        for pair in cuts.windows(2).filter(|p| p[1] - p[0] > 1e-12) {
+            if is_seen(plane, field, l, (pair[0] + pair[1]) / 2.0) {
+                seen.push([l.image[0].lerp(l.image[1], pair[0]), l.image[0].lerp(l.image[1], pair[1])]);
+            }
+        }
+    }
+    seen
+}
+
+/// Edges between a face turned to the eye and one turned away (or no face).
+fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
+    let faces_eye = |f: u32| mesh.area_vector(f as usize).dot(eye - mesh.corners(f as usize)[0]) > 0.0;
+    let on_outline = |faces: &[u32]| {
+        let front = faces.iter().filter(|f| faces_eye(**f)).count();
+        front == 1 || (front > 0 && faces.len() != 2)
+    };
+    let ends = |a: u32, b: u32| [mesh.vertices[a as usize], mesh.vertices[b as usize]];
+    edges(mesh).iter().filter(|e| on_outline(&e.faces)).map(|e| ends(e.a, e.b)).collect()
+}
+
+/// Where pillars stand on the base: no silhouette, but the support changes there.
+fn feet(field: &SupportField) -> Vec<[DVec3; 2]> {
+    let Some(z) = field.base_top() else { return Vec::new() };
+    let mut rings = Vec::new();
+    for support in field.supports {
+        if let SupportKind::Pillar { profile, bottom, top, .. } = &support.kind
+            && (*bottom..*top).contains(&z)
+        {
+            let n = profile.len();
+            rings.extend((0..n).map(|i| [profile[i].extend(z), profile[(i + 1) % n].extend(z)]));
+        }
+    }
+    rings
+}
+
+fn line(plane: &ImagePlane, ends: [DVec3; 2]) -> Option<Line> {
+    let image = [plane.project(ends[0])?, plane.project(ends[1])?];
+    Some(Line { image, inverse_depth: ends.map(|p| 1.0 / plane.depth(p)) })
+}
+
+/// Shortens the line to the window (Liang & Barsky 1984); false if nothing is left.
+fn clip(l: &mut Line, window: (DVec2, DVec2)) -> bool {
+    let (a, d) = (l.image[0], l.image[1] - l.image[0]);
+    let (mut t0, mut t1) = (0.0f64, 1.0f64);
+    for k in 0..2 {
+        for (p, q) in [(-d[k], a[k] - window.0[k]), (d[k], window.1[k] - a[k])] {
+            if p == 0.0 && q < 0.0 {
+                return false;
+            } else if p < 0.0 {
+                t0 = t0.max(q / p);
+            } else if p > 0.0 {
+                t1 = t1.min(q / p);
+            }
+        }
+    }
+    if t0 >= t1 {
+        return false;
+    }
+    let inverse = |t: f64| l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]);
+    let clipped = Line { image: [a + t0 * d, a + t1 * d], inverse_depth: [inverse(t0), inverse(t1)] };
+    *l = clipped;
+    true
+}
+
+/// Parameters along line `i` at which it crosses another, with both ends, in rising order.
+fn cuts(lines: &[Line], i: usize) -> Vec<f64> {
+    let [a, b] = lines[i].image;
+    let (lo, hi) = (a.min(b), a.max(b));
+    let mut cuts = vec![0.0, 1.0];
+    for (j, other) in lines.iter().enumerate() {
+        let [c, d] = other.image;
+        let apart = c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any();
+        if j != i && !apart {
+            cuts.extend(segment_crossing(a, b, c, d));
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    cuts
+}
+
+/// Whether nothing stands in front of the line at parameter `t`.
+fn is_seen(plane: &ImagePlane, field: &SupportField, l: &Line, t: f64) -> bool {
+    let q = l.image[0].lerp(l.image[1], t);
+    let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
+    // The ray grazes the line's own support there: a hit nearer by less than a thousandth of a millimetre is its own.
+    field.first_hit(plane.eye, plane.direction(q)).is_none_or(|(_, z)| z > depth - 1e-3)
+}

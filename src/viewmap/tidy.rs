@@ -1,0 +1,180 @@
+//! Removes cells too thin to print or to round: short sides are collapsed, flat cells flipped away.
+//!
+//! Every crossing of two lines that nearly meet leaves slivers far below any printer's resolution. A needle (one short side)
+//! loses that side; a cap (three long sides) gives its area to the cell across its longest side. Lines move by less than the
+//! given height. Works on the triangulation only: nothing inverts, nothing overlaps, the window stays covered.
+
+use super::arrange::neighbours;
+use super::{Cell, ViewMap};
+use crate::geom::orient;
+use glam::DVec2;
+
+/// Gives every cell a height of at least `height` (image units) where the triangulation allows it.
+pub fn tidy(map: &mut ViewMap, height: f64) {
+    let mut work = Work::new(map, height);
+    work.run();
+    let (points, cells) = work.finish();
+    map.neighbours = neighbours(&cells);
+    map.points = points;
+    map.cells = cells;
+}
+
+struct Work {
+    height: f64,
+    points: Vec<DVec2>,
+    cells: Vec<Option<Cell>>,
+    /// Cells around each point, in no particular order.
+    around: Vec<Vec<u32>>,
+    /// Corners of the window stay.
+    fixed: Vec<bool>,
+    queue: std::collections::VecDeque<u32>,
+}
+
+impl Work {
+    fn new(map: &ViewMap, height: f64) -> Self {
+        let mut around = vec![Vec::new(); map.points.len()];
+        for (c, cell) in map.cells.iter().enumerate() {
+            cell.corners.iter().for_each(|p| around[*p as usize].push(c as u32));
+        }
+        let mut fixed = vec![false; map.points.len()];
+        for (cell, across) in map.cells.iter().zip(&map.neighbours) {
+            for k in (0..3).filter(|k| across[*k].is_none()) {
+                fixed[cell.corners[k] as usize] = true;
+                fixed[cell.corners[(k + 1) % 3] as usize] = true;
+            }
+        }
+        let cells: Vec<_> = map.cells.iter().copied().map(Some).collect();
+        let queue = (0..cells.len() as u32).collect();
+        Self { height, points: map.points.clone(), cells, around, fixed, queue }
+    }
+
+    fn run(&mut self) {
+        // Each step removes two cells or swaps two; the budget only stops two flat cells from swapping for ever.
+        let mut budget = 4 * self.cells.len();
+        while let Some(c) = self.queue.pop_front() {
+            let Some(cell) = self.cells[c as usize].filter(|cell| self.too_thin(cell)) else { continue };
+            if budget == 0 {
+                return;
+            }
+            budget -= 1;
+            let _ = self.collapse_short_side(&cell) || self.flip_long_side(c, &cell);
+        }
+    }
+
+    fn at(&self, p: u32) -> DVec2 {
+        self.points[p as usize]
+    }
+
+    /// Length of the side from corner `k` to the next.
+    fn side(&self, cell: &Cell, k: usize) -> f64 {
+        self.at(cell.corners[k]).distance(self.at(cell.corners[(k + 1) % 3]))
+    }
+
+    fn too_thin(&self, cell: &Cell) -> bool {
+        let [a, b, c] = cell.corners.map(|p| self.at(p));
+        let longest = (0..3).map(|k| self.side(cell, k)).fold(0.0, f64::max);
+        orient(a, b, c) < self.height * longest
+    }
+
+    fn collapse_short_side(&mut self, cell: &Cell) -> bool {
+        let k = (0..3).min_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j))).expect("three sides");
+        if self.side(cell, k) > 2.0 * self.height {
+            return false;
+        }
+        let (a, b) = (cell.corners[k], cell.corners[(k + 1) % 3]);
+        // Points of the input come before crossings: keep the former.
+        let (keep, drop) = (a.min(b), a.max(b));
+        self.merge(drop, keep) || self.merge(keep, drop)
+    }
+
+    /// Moves point `from` onto `to` if no cell turns over and the triangulation stays one.
+    fn merge(&mut self, from: u32, to: u32) -> bool {
+        if self.fixed[from as usize] || self.common_neighbours(from, to) != 2 {
+            return false;
+        }
+        let moved = |cell: &Cell| cell.corners.map(|p| if p == from { to } else { p });
+        let (dying, staying): (Vec<u32>, Vec<u32>) =
+            self.around[from as usize].iter().partition(|c| self.cell(**c).corners.contains(&to));
+        let stays_upright = |c: &u32| {
+            let [a, b, d] = moved(self.cell(*c)).map(|p| self.at(p));
+            orient(a, b, d) > 0.0
+        };
+        if !staying.iter().all(stays_upright) {
+            return false;
+        }
+        for c in dying {
+            let corners = self.cell(c).corners;
+            corners.iter().for_each(|p| self.around[*p as usize].retain(|x| *x != c));
+            self.cells[c as usize] = None;
+        }
+        for c in staying {
+            let corners = moved(self.cell(c));
+            self.cells[c as usize] = Some(Cell { corners, ..*self.cell(c) });
+            self.around[to as usize].push(c);
+            self.queue.push_back(c);
+        }
+        self.around[from as usize].clear();
+        true
+    }
+
+    fn cell(&self, c: u32) -> &Cell {
+        self.cells[c as usize].as_ref().expect("only live cells are listed around points")
+    }
+
+    fn ring(&self, p: u32) -> Vec<u32> {
+        let mut ring: Vec<u32> = self.around[p as usize].iter().flat_map(|c| self.cell(*c).corners).filter(|x| *x != p).collect();
+        ring.sort_unstable();
+        ring.dedup();
+        ring
+    }
+
+    fn common_neighbours(&self, a: u32, b: u32) -> usize {
+        let ring = self.ring(b);
+        self.ring(a).iter().filter(|x| ring.binary_search(x).is_ok()).count()
+    }
+
+    /// Replaces the cell and its neighbour across its longest side by two that have the neighbour's label.
+    fn flip_long_side(&mut self, c: u32, cell: &Cell) -> bool {
+        let k = (0..3).max_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j))).expect("three sides");
+        let (a, b, v) = (cell.corners[k], cell.corners[(k + 1) % 3], cell.corners[(k + 2) % 3]);
+        let across = self.around[a as usize].iter().copied().find(|x| *x != c && self.cell(*x).corners.contains(&b));
+        let Some(other) = across else { return false };
+        let label = *self.cell(other);
+        let Some(d) = label.corners.iter().copied().find(|p| *p != a && *p != b) else { return false };
+        let upright = |x: u32, y: u32, z: u32| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
+        let better = self.thinness([a, d, v]).min(self.thinness([d, b, v])) > self.thinness(cell.corners);
+        if !upright(a, d, v) || !upright(d, b, v) || !better {
+            return false;
+        }
+        self.cells[c as usize] = Some(Cell { corners: [a, d, v], ..label });
+        self.cells[other as usize] = Some(Cell { corners: [d, b, v], ..label });
+        self.around[b as usize].retain(|x| *x != c);
+        self.around[d as usize].push(c);
+        self.around[a as usize].retain(|x| *x != other);
+        self.around[v as usize].push(other);
+        self.queue.push_back(c);
+        self.queue.push_back(other);
+        true
+    }
+
+    /// Height over the longest side: flips must make the thinner of two cells less thin, so they cannot go in circles.
+    fn thinness(&self, corners: [u32; 3]) -> f64 {
+        let [a, b, c] = corners.map(|p| self.at(p));
+        orient(a, b, c) / a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
+    fn finish(self) -> (Vec<DVec2>, Vec<Cell>) {
+        let mut index = vec![u32::MAX; self.points.len()];
+        let mut points = Vec::new();
+        let mut cells: Vec<Cell> = self.cells.into_iter().flatten().collect();
+        for corner in cells.iter_mut().flat_map(|c| &mut c.corners) {
+            let slot = &mut index[*corner as usize];
+            if *slot == u32::MAX {
+                *slot = points.len() as u32;
+                points.push(self.points[*corner as usize]);
+            }
+            *corner = *slot;
+        }
+        (points, cells)
+    }
+}
