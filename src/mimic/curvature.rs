@@ -8,8 +8,9 @@
 use super::ordering::Order;
 use super::program::{Program, Quadratic, Row, RowKind};
 use super::{CurvatureOptions, Depths, SolveError, scales, solve};
-use crate::groups::{Groups, join, root};
+use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
+use crate::mesh::DisjointSets;
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 
@@ -90,18 +91,18 @@ fn vertex_forms(target: &Target, geometry: &FaceGeometry, eye: DVec3) -> Vec<Vec
 /// One equality a block: the area-weighted mean of `s` is 1.
 fn gauge(target: &Target, groups: &Groups, orders: &[Order], areas: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     let n = areas.len();
-    let mut parent: Vec<u32> = (0..(n + groups.groups.len()) as u32).collect();
+    let mut blocks = DisjointSets::new(n + groups.groups.len());
     for face in &target.mesh.faces {
-        join(&mut parent, face[0], face[1]);
-        join(&mut parent, face[1], face[2]);
+        blocks.join(face[0], face[1]);
+        blocks.join(face[1], face[2]);
     }
     for bound in &groups.bounds {
-        join(&mut parent, bound.anchor.vertices[0], n as u32 + bound.group);
+        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
     }
     for order in orders {
-        join(&mut parent, order.front.vertices[0], order.back.vertices[0]);
+        blocks.join(order.front.vertices[0], order.back.vertices[0]);
     }
-    let mut members: Vec<(u32, usize)> = (0..n).filter(|i| areas[*i] > 0.0).map(|i| (root(&mut parent, i as u32), i)).collect();
+    let mut members: Vec<(u32, usize)> = (0..n).filter(|i| areas[*i] > 0.0).map(|i| (blocks.root(i as u32), i)).collect();
     members.sort_unstable();
     let block = |b: &[(u32, usize)]| {
         let total: f64 = b.iter().map(|m| areas[m.1]).sum();

@@ -16,7 +16,7 @@ mod tidy;
 
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
-use crate::mesh::{TriMesh, edges};
+use crate::mesh::{Edges, TriMesh};
 use crate::support::{Support, SupportKind};
 use glam::{DVec2, DVec3};
 
@@ -118,7 +118,7 @@ impl Target {
     pub fn new(mesh: TriMesh, plane: &ImagePlane) -> Option<Self> {
         let image = mesh.vertices.iter().map(|v| plane.project(*v)).collect::<Option<Vec<_>>>()?;
         let depth = mesh.vertices.iter().map(|v| plane.depth(*v)).collect();
-        let closed = edges(&mesh).iter().all(|e| e.faces.len() == 2);
+        let closed = Edges::new(&mesh).iter().all(|e| e.len() == 2);
         Some(Self { bvh: Bvh::new(&mesh), mesh, image, depth, closed })
     }
 

@@ -2,7 +2,8 @@
 
 use super::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
-use crate::mesh::{TriMesh, edges};
+use crate::mesh::topology::HalfEdge;
+use crate::mesh::{Edges, TriMesh};
 use crate::support::SupportKind;
 use glam::{DVec2, DVec3};
 
@@ -35,12 +36,12 @@ pub fn seen_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, D
 /// Edges between a face turned to the eye and one turned away (or no face).
 fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
     let faces_eye = |f: u32| mesh.area_vector(f as usize).dot(eye - mesh.corners(f as usize)[0]) > 0.0;
-    let on_outline = |faces: &[u32]| {
-        let front = faces.iter().filter(|f| faces_eye(**f)).count();
-        front == 1 || (front > 0 && faces.len() != 2)
+    let on_outline = |sides: &&[HalfEdge]| {
+        let front = sides.iter().filter(|h| faces_eye(h.face)).count();
+        front == 1 || (front > 0 && sides.len() != 2)
     };
-    let ends = |a: u32, b: u32| [mesh.vertices[a as usize], mesh.vertices[b as usize]];
-    edges(mesh).iter().filter(|e| on_outline(&e.faces)).map(|e| ends(e.a, e.b)).collect()
+    let ends = |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
+    Edges::new(mesh).iter().filter(on_outline).map(ends).collect()
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.

@@ -19,6 +19,9 @@ pub fn tidy(map: &mut ViewMap, height: f64) {
     map.cells = cells;
 }
 
+/// Sides up to this many heights are collapsed where neither of the gentler ways is open.
+const LAST_RESORT: f64 = 20.0;
+
 struct Work {
     height: f64,
     points: Vec<DVec2>,
@@ -57,7 +60,7 @@ impl Work {
                 return;
             }
             budget -= 1;
-            let _ = self.collapse_short_side(&cell) || self.flip_long_side(c, &cell);
+            let _ = self.collapse_short_side(&cell, 2.0) || self.flip_long_side(c, &cell) || self.collapse_short_side(&cell, LAST_RESORT);
         }
     }
 
@@ -76,9 +79,9 @@ impl Work {
         orient(a, b, c) < self.height * longest
     }
 
-    fn collapse_short_side(&mut self, cell: &Cell) -> bool {
+    fn collapse_short_side(&mut self, cell: &Cell, times: f64) -> bool {
         let k = (0..3).min_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j))).expect("three sides");
-        if self.side(cell, k) > 2.0 * self.height {
+        if self.side(cell, k) > times * self.height {
             return false;
         }
         let (a, b) = (cell.corners[k], cell.corners[(k + 1) % 3]);
