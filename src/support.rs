@@ -116,6 +116,22 @@ impl Slab {
         }
     }
 
+    /// How far `p` lies behind the axis plane, millimetres.
+    pub fn offset(&self, p: DVec3) -> f64 {
+        (p - self.eye).dot(self.towards) - self.distance
+    }
+
+    /// `p` moved `by` millimetres away from the eye, horizontally.
+    pub fn moved(&self, p: DVec3, by: f64) -> DVec3 {
+        p + by * self.towards
+    }
+
+    /// `p` moved sideways to the vertical plane through eye and axis.
+    pub fn onto_axis(&self, p: DVec3) -> DVec3 {
+        let sideways = self.towards.cross(DVec3::Z);
+        p - (p - self.eye).dot(sideways) * sideways
+    }
+
     pub fn eye(&self) -> DVec3 {
         self.eye
     }

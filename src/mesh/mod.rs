@@ -3,6 +3,7 @@
 pub mod boxes;
 pub mod defects;
 pub mod intersect;
+pub mod mend;
 pub mod shells;
 pub mod solid;
 pub mod topology;
@@ -10,6 +11,7 @@ pub mod weld;
 
 pub use defects::{Defect, DefectKind, check};
 pub use intersect::self_intersections;
+pub use mend::mend;
 pub use solid::Solid;
 pub use topology::{DisjointSets, Edges, face_components, face_neighbours, vertex_parts};
 pub use weld::{snap_to_f32, weld};

@@ -1,0 +1,83 @@
+//! The carving in front of a relief: a frustum of the eye's rays. The only module that names `i_overlay`.
+
+use super::boolean::{Boolean, BooleanError};
+use crate::support::Slab;
+use crate::viewmap::ViewMap;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::simplify::SimplifyShape;
+use i_overlay::float::single::SingleFloatOverlay;
+use i_overlay::mesh::outline::offset::OutlineOffset;
+use i_overlay::mesh::style::{LineJoin, OutlineStyle};
+use std::collections::BTreeMap;
+
+/// Overlap of the carving's wider rim with the carving itself, millimetres: more than any bed width, or a fin is left between.
+const RIM_OVERLAP_MM: f64 = 0.05;
+/// How far the carving goes beyond the support's outline, millimetres: the gap to what a nearer support hides must print.
+const RIM_MM: f64 = 0.4;
+/// How far the carving starts in front of support and layer, millimetres.
+const CLEAR_MM: f64 = 1.0;
+/// The finished shape is drawn in by this much, millimetres: parts that touch in a point come apart, as solids must.
+const PART_MM: f64 = 0.003;
+
+/// Closed rings in the image, millimetres at the support; outer ones counter-clockwise, holes clockwise.
+type Rings = Vec<Vec<[f64; 2]>>;
+
+/// The solid to take out of `support` in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
+pub fn hollow(map: &ViewMap, slab: &Slab, support: u32, cells: &[u32], bed: f64) -> Result<Boolean, BooleanError> {
+    let scale = slab.plane(map.plane.forward, 0.0);
+    let seen: Vec<u32> = (0..map.cells.len() as u32).filter(|c| map.cells[*c as usize].support == Some(support)).collect();
+    let relief = simple(outlines(map, cells, scale));
+    let seen = simple(outlines(map, &seen, scale));
+    let rim = offset(&relief, RIM_MM).overlay(&offset(&seen, -RIM_OVERLAP_MM), OverlayRule::Difference, FillRule::NonZero);
+    let shape = offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero);
+    let rings = offset(&flat(shape), -PART_MM);
+    let floor = (slab.backing() + slab.deepest()) / 2.0;
+    // The prism's bottom becomes the far end: (right, up, towards the eye) is right-handed.
+    Boolean::prism(&rings, |p, height| {
+        let q = p / scale;
+        let offset = if height < 0.5 { floor } else { -slab.front() - CLEAR_MM };
+        map.plane.point(q, slab.plane(map.plane.direction(q), offset))
+    })
+}
+
+/// The boundary of a set of cells (rising) as closed rings.
+fn outlines(map: &ViewMap, cells: &[u32], scale: f64) -> Rings {
+    let mut next: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for c in cells {
+        let cell = &map.cells[*c as usize];
+        for k in 0..3 {
+            if map.neighbours[*c as usize][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
+                next.entry(cell.corners[k]).or_default().push(cell.corners[(k + 1) % 3]);
+            }
+        }
+    }
+    let mut rings = Vec::new();
+    while let Some((&start, _)) = next.first_key_value() {
+        let mut ring = Vec::new();
+        let mut at = start;
+        while let Some(ends) = next.get_mut(&at) {
+            let to = ends.pop();
+            if ends.is_empty() {
+                next.remove(&at);
+            }
+            ring.push((map.points[at as usize] * scale).to_array());
+            at = to.unwrap_or(start);
+        }
+        rings.push(ring);
+    }
+    rings
+}
+
+fn flat(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> Rings {
+    shapes.into_iter().flatten().collect()
+}
+
+/// Resolves rings that touch or cross themselves.
+fn simple(rings: Rings) -> Rings {
+    flat(rings.simplify_shape(FillRule::NonZero))
+}
+
+fn offset(rings: &Rings, by: f64) -> Rings {
+    flat(rings.outline(&OutlineStyle::new(by).line_join(LineJoin::Bevel)))
+}

@@ -1,0 +1,195 @@
+//! From reliefs to solids: supports are carved along the eyes' rays in front of the reliefs, and everything is united.
+//!
+//! Takes supports and, per view, the relief over its view map. Gives the whole forest, the bare part (base and pillars) and each
+//! view's reliefs as checked solids. Promises: closed, oriented, 2-manifold, free of self-intersection, in f32.
+//!
+//! Operands never share a wall. The carving reaches deeper than any relief, to half-way inside the relief's solid backing, and
+//! is a hair narrower than the relief where the support goes on beside it (so the relief's edge is bedded in the support) but
+//! wider where the support ends or is hidden (so no fin of it is left standing there).
+
+mod boolean;
+mod brace;
+mod hollow;
+
+use crate::groups::Groups;
+use crate::mesh::{Defect, Solid, mend};
+use crate::relief::{Relief, block};
+use crate::support::Support;
+use crate::viewmap::ViewMap;
+use boolean::{Boolean, BooleanError};
+use rayon::prelude::*;
+
+/// How far a relief's edge is bedded in its support, millimetres at the support: less than a tenth of a printed line, so unseen.
+/// Where operands happen to touch at one width and cannot be mended, the next is tried. At 0.002 (the thinnest cells) they always touch.
+const BED_MM: [f64; 6] = [0.012, 0.015, 0.010, 0.019, 0.008, 0.025];
+/// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
+const CRUMB_MM3: f64 = 0.005;
+
+/// What one view adds to the forest.
+pub struct ViewRelief<'a> {
+    pub name: &'a str,
+    pub map: &'a ViewMap,
+    pub groups: &'a Groups,
+    pub relief: &'a Relief,
+}
+
+/// The forest as checked solids.
+#[derive(Clone, Debug)]
+pub struct Forest {
+    /// Everything as one.
+    pub whole: Solid,
+    /// Base and pillars without reliefs.
+    pub bare: Solid,
+    /// The reliefs of each view, in the order of the views; `None` for a view without any.
+    pub reliefs: Vec<Option<Solid>>,
+    /// What had to be changed on the way.
+    pub repairs: Repairs,
+}
+
+/// What had to be changed to make the solids sound.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Repairs {
+    /// Corners of reliefs whose depth was filled in.
+    pub filled: usize,
+    /// Cells of view maps given up.
+    pub dropped_cells: usize,
+    /// Reliefs that touched their support nowhere and were tied to it by a brace behind it.
+    pub braces: usize,
+    /// Volume of loose crumbs dropped, cubic millimetres.
+    pub crumbs_mm3: f64,
+}
+
+impl Repairs {
+    fn add(&mut self, other: &Repairs) {
+        self.filled += other.filled;
+        self.dropped_cells += other.dropped_cells;
+        self.braces += other.braces;
+        self.crumbs_mm3 += other.crumbs_mm3;
+    }
+}
+
+/// Why there is no sound forest.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CarveError {
+    #[error("{place}: {source}")]
+    Boolean { place: String, source: BooleanError },
+    #[error("{place} came out with defects: {}", list(.defects))]
+    Unsound { place: String, defects: Vec<Defect> },
+}
+
+fn list(defects: &[Defect]) -> String {
+    defects.iter().map(|d| d.to_string()).collect::<Vec<_>>().join("; ")
+}
+
+/// Carves and unites everything.
+///
+/// # Errors
+/// If the boolean library refuses an operand or a solid stays unsound at every width tried, with the support.
+pub fn carve(supports: &[Support], views: &[ViewRelief]) -> Result<Forest, CarveError> {
+    let carved: Vec<Carved> = (0..supports.len()).into_par_iter().map(|s| carve_support(supports, s, views)).collect::<Result<_, _>>()?;
+    let mut repairs = Repairs::default();
+    carved.iter().for_each(|c| repairs.add(&c.repairs));
+    let of_view = |v: usize| carved.iter().flat_map(move |c| c.blocks.iter().filter(move |b| b.0 == v).map(|b| &b.1)).collect::<Vec<_>>();
+    let (whole, (bare, reliefs)) = rayon::join(
+        || united(carved.iter().map(|c| &c.whole).collect(), "the forest"),
+        || {
+            rayon::join(
+                || united(carved.iter().map(|c| &c.bare).collect(), "the bare pillars"),
+                || (0..views.len()).into_par_iter().map(|v| united(of_view(v), views[v].name)).collect::<Result<Vec<_>, _>>(),
+            )
+        },
+    );
+    let whole = whole?.unwrap_or_else(|| unreachable!("a scene has supports"));
+    let bare = bare?.unwrap_or_else(|| unreachable!("a scene has supports"));
+    Ok(Forest { whole, bare, reliefs: reliefs?, repairs })
+}
+
+/// The union of solids, sound again; `None` of nothing.
+fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> {
+    if parts.is_empty() {
+        return Ok(None);
+    }
+    let operands = parts.iter().map(|s| Boolean::new(s.mesh())).collect::<Result<Vec<_>, _>>();
+    let whole = operands.and_then(Boolean::union).map_err(|source| CarveError::Boolean { place: place.into(), source })?;
+    sound(&whole, place).map(Some)
+}
+
+/// The result of booleans as a checked solid: as it is, mended, or mended after slivers were simplified away.
+fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
+    let mut defects = Vec::new();
+    for tolerance in [1e-4, 5e-4, 0.0] {
+        match Solid::new(mend(&solid.simplified(tolerance))) {
+            Ok(solid) => return Ok(solid),
+            Err(d) => defects = d,
+        }
+    }
+    Err(CarveError::Unsound { place: place.into(), defects })
+}
+
+/// One support with its reliefs.
+struct Carved {
+    whole: Solid,
+    bare: Solid,
+    blocks: Vec<(usize, Solid)>,
+    repairs: Repairs,
+}
+
+/// Carves one support, at the first bed width that comes out sound.
+fn carve_support(supports: &[Support], s: usize, views: &[ViewRelief]) -> Result<Carved, CarveError> {
+    let mut last = None;
+    for bed in BED_MM {
+        match carve_at(&supports[s], s as u32, views, bed) {
+            Ok(carved) => return Ok(carved),
+            Err(error) => last = Some(error),
+        }
+    }
+    Err(last.unwrap_or_else(|| unreachable!("at least one width is tried")))
+}
+
+fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result<Carved, CarveError> {
+    let failed = |source| CarveError::Boolean { place: support.name.clone(), source };
+    let mut repairs = Repairs::default();
+    let mut bare = Boolean::new(&support.mesh).map_err(failed)?;
+    let mut blocks = Vec::new();
+    for (v, view) in views.iter().enumerate() {
+        let cells = cells_on(view, s);
+        let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else { continue };
+        let made = block(view.map, &cells, &view.relief.depth, |q| slab.plane(view.map.plane.direction(q), slab.backing()));
+        repairs.filled += made.filled;
+        repairs.dropped_cells += made.dropped;
+        let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
+        bare = bare.minus(&hollow).map_err(failed)?;
+        blocks.push((v, slab, Boolean::new(&made.mesh).map_err(failed)?));
+    }
+    let mut whole = bare.clone();
+    for (_, slab, block) in &mut blocks {
+        let joined = whole.plus(block).map_err(failed)?;
+        let braces = brace::braces(&joined, slab, CRUMB_MM3).map_err(failed)?;
+        repairs.braces += braces.len();
+        for brace in &braces {
+            *block = block.plus(brace).map_err(failed)?;
+        }
+        whole = if braces.is_empty() { joined } else { whole.plus(block).map_err(failed)? };
+        let (kept, crumbs) = whole.without_crumbs(CRUMB_MM3);
+        whole = kept;
+        repairs.crumbs_mm3 += crumbs;
+    }
+    for (_, _, block) in &mut blocks {
+        bare = bare.minus(block).map_err(failed)?.without_crumbs(CRUMB_MM3).0;
+        *block = block.without_crumbs(CRUMB_MM3).0;
+    }
+    let name = |what: &str| format!("{} ({what})", support.name);
+    let blocks = blocks.iter().filter(|b| !b.2.is_empty()).map(|(v, _, b)| Ok((*v, sound(b, &name(views[*v].name))?)));
+    Ok(Carved {
+        blocks: blocks.collect::<Result<_, _>>()?,
+        whole: sound(&whole, &name("with reliefs"))?,
+        bare: sound(&bare, &name("carved"))?,
+        repairs,
+    })
+}
+
+fn cells_on(view: &ViewRelief, support: u32) -> Vec<u32> {
+    let on = |c: &usize| view.map.cells[*c].support == Some(support) && view.relief.depth[*c].is_some();
+    (0..view.map.cells.len()).filter(on).map(|c| c as u32).collect()
+}
+
