@@ -44,6 +44,28 @@ pub enum DefectKind {
     UnreferencedVertex,
 }
 
+impl DefectKind {
+    /// A stable name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoFaces => "no_faces",
+            Self::NonFinite => "non_finite",
+            Self::BadIndex => "bad_index",
+            Self::RepeatedIndex => "repeated_index",
+            Self::ZeroArea => "zero_area",
+            Self::DuplicateFace => "duplicate_face",
+            Self::OpenEdge => "open_edge",
+            Self::CrowdedEdge => "crowded_edge",
+            Self::MixedWinding => "mixed_winding",
+            Self::BowtieVertex => "bowtie_vertex",
+            Self::SelfIntersection => "self_intersection",
+            Self::InsideOut => "inside_out",
+            Self::MisplacedShell => "misplaced_shell",
+            Self::UnreferencedVertex => "unreferenced_vertex",
+        }
+    }
+}
+
 /// One kind of defect of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {

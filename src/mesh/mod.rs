@@ -2,13 +2,16 @@
 
 pub mod boxes;
 pub mod defects;
+pub mod gate;
 pub mod intersect;
+pub mod polygon;
 pub mod shells;
 pub mod solid;
 pub mod topology;
 pub mod weld;
 
 pub use defects::{Defect, DefectKind, check};
+pub use gate::gate;
 pub use intersect::self_intersections;
 pub use solid::Solid;
 pub use topology::{face_components, face_neighbours, vertex_parts};
