@@ -25,7 +25,7 @@ const MAX_NAME: usize = 255;
 /// # Errors
 /// The first line that cannot be read as what it claims to be, or a file without faces.
 pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
-    let mut scan = Scan::new(file);
+    let mut scan = Scan::new(file, bytes);
     for (number, line) in logical_lines(without_bom(bytes)) {
         scan.line(number, &line)?;
     }
@@ -46,7 +46,10 @@ fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
             };
             line.extend_from_slice(more);
         }
-        if let Some(hash) = line.iter().position(|b| *b == b'#') {
+        // Only at the start of a word: `1.#IND` is a broken number, not a number with a comment.
+        let starts_comment =
+            |k: &usize| line[*k] == b'#' && (*k == 0 || line[*k - 1].is_ascii_whitespace());
+        if let Some(hash) = (0..line.len()).find(starts_comment) {
             line.truncate(hash);
         }
         Some((number, line))
@@ -67,6 +70,7 @@ struct Polygon {
 /// What has been read so far.
 struct Scan<'a> {
     file: &'a str,
+    bytes: &'a [u8],
     positions: Vec<DVec3>,
     texture_points: i64,
     normals: i64,
@@ -81,9 +85,10 @@ struct Scan<'a> {
 }
 
 impl<'a> Scan<'a> {
-    fn new(file: &'a str) -> Self {
+    fn new(file: &'a str, bytes: &'a [u8]) -> Self {
         Self {
             file,
+            bytes,
             positions: Vec::new(),
             texture_points: 0,
             normals: 0,
@@ -256,7 +261,10 @@ impl<'a> Scan<'a> {
                     let message = format!(
                         "a face uses vertex {corner}, but the file has {vertices} vertices"
                     );
-                    return Err(at_line(self.file, polygon.line, b"f ...", message));
+                    let (_, text) = lines(self.bytes)
+                        .nth(polygon.line - 1)
+                        .unwrap_or_default();
+                    return Err(at_line(self.file, polygon.line, text, message));
                 }
             }
         }
@@ -283,6 +291,15 @@ impl<'a> Scan<'a> {
         for model in &models {
             mesh.append(&from_tobj(&model.mesh));
         }
+        // `tobj` keeps only what faces use; whoever checks the mesh is to see the rest too.
+        let mut used = vec![false; self.positions.len()];
+        for corner in &self.corners {
+            used[*corner as usize - 1] = true;
+        }
+        let stray = (0..used.len())
+            .filter(|v| !used[*v])
+            .map(|v| self.positions[v]);
+        mesh.vertices.extend(stray);
         Ok(mesh)
     }
 
@@ -309,7 +326,7 @@ impl<'a> Scan<'a> {
         }
         if let Some(first) = self.bad_names.first() {
             warn(*first, format!(
-                "{} object names are longer than {MAX_NAME} bytes or have control characters: they are not used",
+                "object names longer than {MAX_NAME} bytes or with control characters are not used ({} of them)",
                 self.bad_names.len()
             ));
         }
@@ -317,20 +334,9 @@ impl<'a> Scan<'a> {
             warn(
                 *first,
                 format!(
-                    "{} lines with unknown keywords are ignored, the first is `{word}`",
+                    "lines with unknown keywords are ignored ({} of them), the first is `{word}`",
                     self.unknown.len()
                 ),
-            );
-        }
-        let mut used = vec![false; self.positions.len()];
-        for corner in &self.corners {
-            used[*corner as usize - 1] = true;
-        }
-        let stray = used.iter().filter(|u| !**u).count();
-        if stray > 0 {
-            warnings.push(
-                Diagnostic::warning(format!("dropped {stray} vertices that no face uses"))
-                    .at(Place::File(self.file.to_owned())),
             );
         }
         warnings

@@ -27,6 +27,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
     let mut builder = Builder::default();
     for element in &header.elements {
         body.element(element, &mut builder)?;
+        builder.vertices_known |= element.name == "vertex";
     }
     let mesh = builder.finish(file)?;
     let mut warnings = Vec::new();
@@ -407,6 +408,8 @@ fn number(word: &[u8], scalar: Scalar) -> Result<f64, String> {
 #[derive(Default)]
 struct Builder {
     vertices: Vec<DVec3>,
+    /// Whether all vertices have been read, so that indices can be checked where they stand.
+    vertices_known: bool,
     /// Corners of all polygons, and how many each has: vertices may come after the faces.
     corners: Vec<u32>,
     arities: Vec<u32>,
@@ -418,7 +421,7 @@ impl Builder {
             return Err(format!("{} corners, at least 3 wanted", list.len()));
         }
         for value in list {
-            let corner = index(*value)?;
+            let corner = self.index(*value)?;
             self.corners.push(corner);
         }
         self.arities.push(list.len() as u32);
@@ -429,7 +432,7 @@ impl Builder {
     fn strip(&mut self, list: &[f64]) -> Result<(), String> {
         for strip in list.split(|v| *v == -1.0) {
             for (k, t) in strip.windows(3).enumerate() {
-                let [a, b, c] = [index(t[0])?, index(t[1])?, index(t[2])?];
+                let [a, b, c] = [self.index(t[0])?, self.index(t[1])?, self.index(t[2])?];
                 if a != b && b != c && c != a {
                     let turned = if k % 2 == 0 { [a, b, c] } else { [b, a, c] };
                     self.corners.extend(turned);
@@ -438,6 +441,18 @@ impl Builder {
             }
         }
         Ok(())
+    }
+
+    fn index(&self, value: f64) -> Result<u32, String> {
+        let count = self.vertices.len();
+        if self.vertices_known && value >= count as f64 {
+            return Err(format!("a vertex index {value}, but there are {count} vertices (counted from 0)"));
+        }
+        if value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0 {
+            Ok(value as u32)
+        } else {
+            Err(format!("a vertex index {value}"))
+        }
     }
 
     fn finish(self, file: &str) -> Result<TriMesh, Diagnostic> {
@@ -463,13 +478,5 @@ impl Builder {
             vertices: self.vertices,
             faces,
         })
-    }
-}
-
-fn index(value: f64) -> Result<u32, String> {
-    if value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0 {
-        Ok(value as u32)
-    } else {
-        Err(format!("a vertex index {value}"))
     }
 }

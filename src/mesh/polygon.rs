@@ -6,7 +6,7 @@
 use crate::mesh::intersect::turn2;
 use glam::DVec3;
 
-/// Work beyond which a concave polygon is fanned instead of clipped (corners times reflex corners): a second or so.
+/// Work beyond which a concave polygon is cut as if it were convex instead of clipped (corners times reflex corners): a second or so.
 const MAX_WORK: usize = 200_000_000;
 
 /// Triangles of corner numbers `0 .. points.len()`.
@@ -20,9 +20,25 @@ pub fn triangulate(points: &[DVec3]) -> Vec<[u32; 3]> {
         .filter(|&k| outline.turn((k + n - 1) % n, k, (k + 1) % n) <= 0.0)
         .collect();
     if n == 3 || reflex.is_empty() || n.saturating_mul(reflex.len()) > MAX_WORK {
-        return (1..n as u32 - 1).map(|k| [0, k, k + 1]).collect();
+        return halve(n as u32);
     }
     clip_ears(&outline, reflex)
+}
+
+/// Triangles of a convex polygon by halving its outline: a fan of a large one would be all needles in one corner.
+fn halve(n: u32) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(n as usize - 2);
+    let mut chains = vec![(0, n - 1)];
+    while let Some((first, last)) = chains.pop() {
+        let middle = (first + last + 1) / 2;
+        triangles.push([first, middle, last]);
+        chains.extend(
+            [(first, middle), (middle, last)]
+                .into_iter()
+                .filter(|(a, b)| b - a > 1),
+        );
+    }
+    triangles
 }
 
 /// A polygon seen along the axis nearest to its normal, so that it turns counter-clockwise.
