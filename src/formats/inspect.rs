@@ -125,9 +125,17 @@ fn defect_report(defect: &Defect) -> DefectReport {
 
 impl fmt::Display for Inspection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verdict = if self.printable { "printable" } else { "not printable" };
+        let verdict = if self.printable {
+            "printable"
+        } else {
+            "not printable"
+        };
         let count = self.bodies.len();
-        let bodies = if count == 1 { String::new() } else { format!(", {count} bodies") };
+        let bodies = if count == 1 {
+            String::new()
+        } else {
+            format!(", {count} bodies")
+        };
         writeln!(f, "{}: {}{bodies}, {verdict}", self.file, self.format)?;
         for body in self.bodies.iter().chain(&self.together) {
             write!(f, "{body}")?;
@@ -144,10 +152,23 @@ impl fmt::Display for BodyReport {
         let [x, y, z] = self.size_mm;
         let parts = if self.parts == 1 { "part" } else { "parts" };
         writeln!(f, "    {x:.2} x {y:.2} x {z:.2} mm, {} {parts}", self.parts)?;
-        writeln!(f, "    {} triangles, {} vertices", self.triangles, self.vertices)?;
+        writeln!(
+            f,
+            "    {} triangles, {} vertices",
+            self.triangles, self.vertices
+        )?;
         match self.volume_mm3 {
-            Some(volume) => writeln!(f, "    volume {:.3} cm3, area {:.2} cm2", volume / 1e3, self.area_mm2 / 1e2)?,
-            None => writeln!(f, "    open, so without a volume; area {:.2} cm2", self.area_mm2 / 1e2)?,
+            Some(volume) => writeln!(
+                f,
+                "    volume {:.3} cm3, area {:.2} cm2",
+                volume / 1e3,
+                self.area_mm2 / 1e2
+            )?,
+            None => writeln!(
+                f,
+                "    open, so without a volume; area {:.2} cm2",
+                self.area_mm2 / 1e2
+            )?,
         }
         for defect in &self.defects {
             writeln!(f, "    defect: {}", defect.text)?;

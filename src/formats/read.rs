@@ -96,7 +96,11 @@ pub fn read_bodies(file_name: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh
 ///
 /// # Errors
 /// As [`read_mesh`], and models without faces, extent or thickness.
-pub fn load_model(file_name: &str, bytes: &[u8], at_own_size: bool) -> Result<Warned<TriMesh>, Diagnostic> {
+pub fn load_model(
+    file_name: &str,
+    bytes: &[u8],
+    at_own_size: bool,
+) -> Result<Warned<TriMesh>, Diagnostic> {
     let read = read_mesh(file_name, bytes)?;
     let mut warnings = read.warnings;
     let gated = gate(file_name, read.value)?;
@@ -138,7 +142,10 @@ const ZIP: &str = "a zip archive (3MF, if it is a model)";
 const PLY: &str = "PLY";
 
 fn fits(format: MeshFormat, what: &str) -> bool {
-    matches!((format, what), (MeshFormat::ThreeMf, ZIP) | (MeshFormat::Ply, PLY))
+    matches!(
+        (format, what),
+        (MeshFormat::ThreeMf, ZIP) | (MeshFormat::Ply, PLY)
+    )
 }
 
 /// What the first bytes give away for sure.
@@ -157,7 +164,10 @@ fn recognised(bytes: &[u8]) -> Option<&'static str> {
         (b"\x7FELF", "a program"),
         (b"\xFF\xFE", "UTF-16 text: save it as UTF-8"),
         (b"\xFE\xFF", "UTF-16 text: save it as UTF-8"),
-        (b"version https://git-lfs", "a git-lfs pointer, not the model itself: run `git lfs pull`"),
+        (
+            b"version https://git-lfs",
+            "a git-lfs pointer, not the model itself: run `git lfs pull`",
+        ),
         (b"Kaydara FBX", "an FBX model"),
     ];
     if let Some((_, what)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {

@@ -80,7 +80,9 @@ impl<'a> Container<'a> {
                 || name.split('/').any(|step| step == "..");
             if leaves {
                 let name = excerpt(name.as_bytes());
-                return Err(format!("the archive has an entry that points out of it: `{name}`"));
+                return Err(format!(
+                    "the archive has an entry that points out of it: `{name}`"
+                ));
             }
         }
         Ok(Self {
@@ -174,7 +176,10 @@ impl Assembly<'_> {
         if let Some(known) = self.parts.iter().position(|(name, _)| *name == entry) {
             return Ok(known);
         }
-        let bytes = self.container.inflate(&entry).map_err(|why| self.fail(why))?;
+        let bytes = self
+            .container
+            .inflate(&entry)
+            .map_err(|why| self.fail(why))?;
         let part = xml_3mf::parse(&bytes).map_err(|(offset, why)| {
             Diagnostic::error(why).at(Place::Byte {
                 file: format!("{}:{}", self.file, excerpt(entry.as_bytes())),
@@ -186,7 +191,14 @@ impl Assembly<'_> {
     }
 
     /// Adds the meshes of an object and of its components; `outer` places the object it is a component of.
-    fn add(&mut self, part: usize, instance: &Instance, outer: DMat4, name: &str, depth: usize) -> Result<(), Diagnostic> {
+    fn add(
+        &mut self,
+        part: usize,
+        instance: &Instance,
+        outer: DMat4,
+        name: &str,
+        depth: usize,
+    ) -> Result<(), Diagnostic> {
         let part = match &instance.part {
             Some(path) => self.part(path)?,
             None => part,
@@ -199,7 +211,11 @@ impl Assembly<'_> {
             return Err(self.fail(format!("object {id} is used but does not exist")));
         };
         let matrix = outer * instance.transform;
-        let name = if object.name.is_empty() { name.to_owned() } else { object.name.clone() };
+        let name = if object.name.is_empty() {
+            name.to_owned()
+        } else {
+            object.name.clone()
+        };
         let components = object.components.clone();
         let triangles = object.mesh.faces.len();
         self.instances += 1;
@@ -212,7 +228,9 @@ impl Assembly<'_> {
         if triangles > 0 {
             let body = placed(object, matrix, self.parts[part].1.unit_mm, name.clone());
             if body.mesh.vertices.iter().any(|v| !v.is_finite()) {
-                return Err(self.fail(format!("object {id} is placed at coordinates that are not finite")));
+                return Err(self.fail(format!(
+                    "object {id} is placed at coordinates that are not finite"
+                )));
             }
             self.bodies.push(body);
         }

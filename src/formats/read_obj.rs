@@ -13,10 +13,37 @@ use std::fmt::Write;
 
 /// Keywords of the format that say nothing about the surface.
 const IGNORED: [&[u8]; 31] = [
-    b"vp", b"s", b"mg", b"usemtl", b"mtllib", b"usemap", b"maplib", b"l", b"p", b"bevel",
-    b"c_interp", b"d_interp", b"lod", b"shadow_obj", b"trace_obj", b"ctech", b"stech", b"cstype",
-    b"deg", b"bmat", b"step", b"curv", b"curv2", b"surf", b"parm", b"trim", b"hole", b"scrv",
-    b"sp", b"end", b"con",
+    b"vp",
+    b"s",
+    b"mg",
+    b"usemtl",
+    b"mtllib",
+    b"usemap",
+    b"maplib",
+    b"l",
+    b"p",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+    b"curv",
+    b"curv2",
+    b"surf",
+    b"parm",
+    b"trim",
+    b"hole",
+    b"scrv",
+    b"sp",
+    b"end",
+    b"con",
 ];
 
 /// Names longer than this are cut where they are shown or written.
@@ -232,9 +259,8 @@ impl<'a> Scan<'a> {
     }
 
     fn finish(self) -> Result<Warned<TriMesh>, Diagnostic> {
-        let whole = |message: String| {
-            Err(Diagnostic::error(message).at(Place::File(self.file.to_owned())))
-        };
+        let whole =
+            |message: String| Err(Diagnostic::error(message).at(Place::File(self.file.to_owned())));
         if self.polygons.is_empty() {
             return match self.positions.len() {
                 0 => whole("the file has no vertices and no faces".to_owned()),
@@ -261,9 +287,7 @@ impl<'a> Scan<'a> {
                     let message = format!(
                         "a face uses vertex {corner}, but the file has {vertices} vertices"
                     );
-                    let (_, text) = lines(self.bytes)
-                        .nth(polygon.line - 1)
-                        .unwrap_or_default();
+                    let (_, text) = lines(self.bytes).nth(polygon.line - 1).unwrap_or_default();
                     return Err(at_line(self.file, polygon.line, text, message));
                 }
             }
@@ -319,16 +343,22 @@ impl<'a> Scan<'a> {
             } else {
                 self.largest_vn
             };
-            warn(line, format!(
-                "faces use texture point {} and normal {}, but the file has {} and {}: only positions are read",
-                self.largest_vt.0, self.largest_vn.0, self.texture_points, self.normals
-            ));
+            warn(
+                line,
+                format!(
+                    "faces use texture point {} and normal {}, but the file has {} and {}: only positions are read",
+                    self.largest_vt.0, self.largest_vn.0, self.texture_points, self.normals
+                ),
+            );
         }
         if let Some(first) = self.bad_names.first() {
-            warn(*first, format!(
-                "object names longer than {MAX_NAME} bytes or with control characters are not used ({} of them)",
-                self.bad_names.len()
-            ));
+            warn(
+                *first,
+                format!(
+                    "object names longer than {MAX_NAME} bytes or with control characters are not used ({} of them)",
+                    self.bad_names.len()
+                ),
+            );
         }
         if let Some((first, word)) = self.unknown.first() {
             warn(

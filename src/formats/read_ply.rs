@@ -33,7 +33,10 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
     let mut warnings = Vec::new();
     let left = bytes.get(body.at..).unwrap_or_default().trim_ascii();
     if !left.is_empty() {
-        let message = format!("ignored {} bytes after the last declared element", left.len());
+        let message = format!(
+            "ignored {} bytes after the last declared element",
+            left.len()
+        );
         warnings.push(Diagnostic::warning(message).at(Place::Byte {
             file: file.to_owned(),
             offset: body.at as u64,
@@ -136,7 +139,10 @@ impl Header {
             let rest = &bytes[at..];
             number += 1;
             let too_long = number > MAX_HEADER_LINES || at > MAX_HEADER_BYTES;
-            let end = rest.iter().take(MAX_HEADER_BYTES).position(|b| matches!(b, b'\n' | b'\r'));
+            let end = rest
+                .iter()
+                .take(MAX_HEADER_BYTES)
+                .position(|b| matches!(b, b'\n' | b'\r'));
             let (Some(end), false) = (end, too_long) else {
                 let why = if too_long {
                     format!("the header has more than {MAX_HEADER_LINES} lines")
@@ -152,7 +158,11 @@ impl Header {
             let fail = |why: String| at_line(file, number, line, why);
             match words.as_slice() {
                 ["ply"] if number == 1 => {}
-                _ if number == 1 => return Err(fail("not a PLY file: its first line is not `ply`".to_owned())),
+                _ if number == 1 => {
+                    return Err(fail(
+                        "not a PLY file: its first line is not `ply`".to_owned(),
+                    ));
+                }
                 [] | ["comment" | "obj_info", ..] => {}
                 ["format", name, _version] => encoding = Some(encoding_named(name).map_err(fail)?),
                 ["element", name, count] => {
@@ -170,7 +180,12 @@ impl Header {
             }
         }
         let Some(encoding) = encoding else {
-            return Err(at_line(file, number, b"", "the header has no `format` line"));
+            return Err(at_line(
+                file,
+                number,
+                b"",
+                "the header has no `format` line",
+            ));
         };
         Ok(Self {
             encoding,
@@ -270,7 +285,11 @@ struct Body<'a> {
 
 impl Body<'_> {
     fn element(&mut self, element: &Element, builder: &mut Builder) -> Result<(), Diagnostic> {
-        let roles: Vec<Role> = element.properties.iter().map(|p| role(element, p)).collect();
+        let roles: Vec<Role> = element
+            .properties
+            .iter()
+            .map(|p| role(element, p))
+            .collect();
         if element.name == "vertex" && (0..3).any(|axis| !roles.contains(&Role::Axis(axis))) {
             let message = "the element `vertex` lacks a property x, y or z";
             return Err(at_line(self.file, element.line, b"element vertex", message));
@@ -319,9 +338,17 @@ impl Body<'_> {
     fn text_line(&self, at: usize) -> &[u8] {
         let at = at.min(self.bytes.len());
         let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
-        let start = (at..self.bytes.len()).find(|k| !self.bytes[*k].is_ascii_whitespace()).unwrap_or(at);
-        let from = self.bytes[..start].iter().rposition(is_end).map_or(0, |k| k + 1);
-        let to = self.bytes[start..].iter().position(is_end).map_or(self.bytes.len(), |k| start + k);
+        let start = (at..self.bytes.len())
+            .find(|k| !self.bytes[*k].is_ascii_whitespace())
+            .unwrap_or(at);
+        let from = self.bytes[..start]
+            .iter()
+            .rposition(is_end)
+            .map_or(0, |k| k + 1);
+        let to = self.bytes[start..]
+            .iter()
+            .position(is_end)
+            .map_or(self.bytes.len(), |k| start + k);
         &self.bytes[from..to]
     }
 
@@ -330,14 +357,24 @@ impl Body<'_> {
     }
 
     /// The length of a list, known to fit into what is left of the file.
-    fn length(&mut self, length: Scalar, property: &Property, element: &Element, row: u64) -> Result<usize, Diagnostic> {
+    fn length(
+        &mut self,
+        length: Scalar,
+        property: &Property,
+        element: &Element,
+        row: u64,
+    ) -> Result<usize, Diagnostic> {
         let start = self.at;
         let count = self.scalar(length, element, row)?;
         if count < 0.0 || count.fract() != 0.0 {
             return Err(self.fail((start, row, element), format!("a list of length {count}")));
         }
         // Every item takes at least a blank and a digit in text.
-        let smallest = if self.encoding == Encoding::Text { 1 } else { property.scalar.size() };
+        let smallest = if self.encoding == Encoding::Text {
+            1
+        } else {
+            property.scalar.size()
+        };
         let left = self.bytes.len() - self.at;
         if count * smallest as f64 > left as f64 {
             let why = format!("a list of {count} items, but the file ends {left} bytes later");
@@ -446,7 +483,9 @@ impl Builder {
     fn index(&self, value: f64) -> Result<u32, String> {
         let count = self.vertices.len();
         if self.vertices_known && value >= count as f64 {
-            return Err(format!("a vertex index {value}, but there are {count} vertices (counted from 0)"));
+            return Err(format!(
+                "a vertex index {value}, but there are {count} vertices (counted from 0)"
+            ));
         }
         if value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0 {
             Ok(value as u32)
@@ -463,7 +502,9 @@ impl Builder {
             return Err(Diagnostic::error(message).at(place()));
         }
         if let Some(bad) = self.corners.iter().find(|c| **c as usize >= count) {
-            let message = format!("a face uses vertex {bad}, but the file has {count} vertices (counted from 0)");
+            let message = format!(
+                "a face uses vertex {bad}, but the file has {count} vertices (counted from 0)"
+            );
             return Err(Diagnostic::error(message).at(place()));
         }
         let mut faces = Vec::with_capacity(self.arities.len());
@@ -472,7 +513,11 @@ impl Builder {
             let (polygon, tail) = rest.split_at(*arity as usize);
             rest = tail;
             let points: Vec<DVec3> = polygon.iter().map(|v| self.vertices[*v as usize]).collect();
-            faces.extend(triangulate(&points).into_iter().map(|t| t.map(|k| polygon[k as usize])));
+            faces.extend(
+                triangulate(&points)
+                    .into_iter()
+                    .map(|t| t.map(|k| polygon[k as usize])),
+            );
         }
         Ok(TriMesh {
             vertices: self.vertices,

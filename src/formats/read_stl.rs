@@ -4,7 +4,9 @@
 //! files carry too. Normals are not read: the corners say more.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::text::{at_byte, at_line, check_coordinate, coordinate, excerpt, lines, without_bom};
+use crate::formats::text::{
+    at_byte, at_line, check_coordinate, coordinate, excerpt, lines, without_bom,
+};
 use crate::mesh::TriMesh;
 use glam::DVec3;
 
@@ -64,10 +66,11 @@ fn read_binary(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> 
     for (number, facet) in body.chunks_exact(FACET).enumerate() {
         for corner in 0..3 {
             let at = 12 + 12 * corner;
-            soup.vertices.push(binary_corner(&facet[at..at + 12]).map_err(|why| {
-                let message = format!("triangle {} has a coordinate that is {why}", number + 1);
-                at_byte(file, HEADER + number * FACET + at, message)
-            })?);
+            soup.vertices
+                .push(binary_corner(&facet[at..at + 12]).map_err(|why| {
+                    let message = format!("triangle {} has a coordinate that is {why}", number + 1);
+                    at_byte(file, HEADER + number * FACET + at, message)
+                })?);
         }
     }
     let value = soup.finish(file)?;
@@ -147,7 +150,8 @@ fn read_text(file: &str, bytes: &[u8]) -> Result<TriMesh, Diagnostic> {
             (b"endsolid", Expect::FacetOrEnd) => Expect::Solid,
             (b"outer", Expect::Vertex) | (b"endloop", Expect::EndFacet) => expect,
             (b"vertex", Expect::Vertex) => {
-                let corner = text_corner(&words[1..]).map_err(|why| at_line(file, number, line, why))?;
+                let corner =
+                    text_corner(&words[1..]).map_err(|why| at_line(file, number, line, why))?;
                 soup.vertices.push(corner);
                 if soup.vertices.len().is_multiple_of(3) {
                     Expect::EndFacet
@@ -163,17 +167,30 @@ fn read_text(file: &str, bytes: &[u8]) -> Result<TriMesh, Diagnostic> {
         };
     }
     if matches!(expect, Expect::Vertex | Expect::EndFacet) {
-        return Err(at_line(file, last, b"", "the file ends inside of a facet: it is cut short"));
+        return Err(at_line(
+            file,
+            last,
+            b"",
+            "the file ends inside of a facet: it is cut short",
+        ));
     }
     if expect == Expect::FacetOrEnd && !soup.vertices.is_empty() {
-        return Err(at_line(file, last, b"", "the file ends without `endsolid`: it is cut short"));
+        return Err(at_line(
+            file,
+            last,
+            b"",
+            "the file ends without `endsolid`: it is cut short",
+        ));
     }
     soup.finish(file)
 }
 
 fn text_corner(words: &[&[u8]]) -> Result<DVec3, String> {
     if words.len() != 3 {
-        return Err(format!("a vertex with {} coordinates, 3 wanted", words.len()));
+        return Err(format!(
+            "a vertex with {} coordinates, 3 wanted",
+            words.len()
+        ));
     }
     let mut corner = [0.0; 3];
     for (value, word) in corner.iter_mut().zip(words) {

@@ -119,7 +119,12 @@ fn close(part: &ModelPart, name: &[u8]) -> Result<(), String> {
         return Ok(());
     };
     let count = object.mesh.vertices.len();
-    let bad = object.mesh.faces.iter().flatten().find(|v| **v as usize >= count);
+    let bad = object
+        .mesh
+        .faces
+        .iter()
+        .flatten()
+        .find(|v| **v as usize >= count);
     match bad {
         Some(v) => Err(format!(
             "object {}: a triangle uses vertex {v}, but there are {count} vertices (counted from 0)",
@@ -146,13 +151,19 @@ fn transform(text: &str) -> Result<DMat4, String> {
     let mut words = text.split_ascii_whitespace();
     for value in &mut m {
         let word = words.next().unwrap_or_default();
-        *value = coordinate(word.as_bytes()).map_err(|why| format!("a transform with a value that is {why}"))?;
+        *value = coordinate(word.as_bytes())
+            .map_err(|why| format!("a transform with a value that is {why}"))?;
     }
     if words.next().is_some() {
         return Err("a transform with more than 12 values".to_owned());
     }
     let column = |k: usize, w: f64| DVec4::new(m[k], m[k + 1], m[k + 2], w);
-    Ok(DMat4::from_cols(column(0, 0.0), column(3, 0.0), column(6, 0.0), column(9, 1.0)))
+    Ok(DMat4::from_cols(
+        column(0, 0.0),
+        column(3, 0.0),
+        column(6, 0.0),
+        column(9, 1.0),
+    ))
 }
 
 fn unit_mm(unit: &str) -> Result<f64, String> {
@@ -172,7 +183,9 @@ fn attribute(e: &BytesStart, name: &[u8]) -> Result<Option<String>, String> {
     for attribute in e.attributes() {
         let attribute = attribute.map_err(|e| format!("broken XML: {e}"))?;
         if attribute.key.local_name().as_ref() == name {
-            let value = attribute.unescape_value().map_err(|e| format!("broken XML: {e}"))?;
+            let value = attribute
+                .unescape_value()
+                .map_err(|e| format!("broken XML: {e}"))?;
             return Ok(Some(value.into_owned()));
         }
     }
@@ -187,7 +200,8 @@ fn wanted(e: &BytesStart, name: &[u8]) -> Result<String, String> {
 }
 
 fn number(e: &BytesStart, name: &[u8]) -> Result<f64, String> {
-    coordinate(wanted(e, name)?.trim_ascii().as_bytes()).map_err(|why| format!("a coordinate that is {why}"))
+    coordinate(wanted(e, name)?.trim_ascii().as_bytes())
+        .map_err(|why| format!("a coordinate that is {why}"))
 }
 
 fn whole(e: &BytesStart, name: &[u8]) -> Result<u32, String> {

@@ -11,7 +11,7 @@ use crate::mesh::defects::{DefectKind, check};
 use crate::mesh::shells::shells;
 use crate::mesh::topology::{Edges, HalfEdge};
 use crate::mesh::weld::{
-    drop_collapsed, drop_duplicates, drop_unreferenced, weld, weld_some, Welded,
+    Welded, drop_collapsed, drop_duplicates, drop_unreferenced, weld, weld_some,
 };
 use glam::DVec3;
 
@@ -38,11 +38,15 @@ pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
         }
         if !left.is_empty() {
             let joint = if notes.is_empty() { "" } else { "; " };
-            message = format!("{message}{joint}not a sound closed surface: {}", left.join("; "));
+            message = format!(
+                "{message}{joint}not a sound closed surface: {}",
+                left.join("; ")
+            );
         }
         let mut warning = Diagnostic::warning(message).at(place());
         if !left.is_empty() {
-            warning = warning.help("a view can show it all the same; it could not be printed as it is");
+            warning =
+                warning.help("a view can show it all the same; it could not be printed as it is");
         }
         warnings.push(warning);
     }
@@ -55,23 +59,37 @@ pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
 fn clean(mut mesh: TriMesh, notes: &mut Vec<String>) -> Result<TriMesh, String> {
     let mut note = |count: usize, one: &str, many: &str| {
         if count > 0 {
-            notes.push(format!("{} {count} {}", one.split(' ').next().unwrap_or(one), {
-                let rest = if count == 1 { one } else { many };
-                rest.split_once(' ').map_or("", |r| r.1)
-            }));
+            notes.push(format!(
+                "{} {count} {}",
+                one.split(' ').next().unwrap_or(one),
+                {
+                    let rest = if count == 1 { one } else { many };
+                    rest.split_once(' ').map_or("", |r| r.1)
+                }
+            ));
         }
     };
     let stray = drop_unreferenced(&mut mesh);
-    note(stray, "dropped vertex that no face uses", "dropped vertices that no face uses");
+    note(
+        stray,
+        "dropped vertex that no face uses",
+        "dropped vertices that no face uses",
+    );
     let size = extent(&mesh)?;
     let closed_as_read = Edges::new(&mesh).iter().all(|e| e.len() > 1);
     mesh = weld(&mesh, 0.0).mesh;
     let (sealed, joined) = seal_cracks(mesh, CRACK * size.length());
     mesh = sealed;
-    note(joined, "joined vertex across a crack", "joined vertices across cracks");
+    note(
+        joined,
+        "joined vertex across a crack",
+        "joined vertices across cracks",
+    );
     let repeated = drop_collapsed(&mut mesh);
     let duplicates = drop_duplicates(&mut mesh);
-    if size.min_element() <= NOTHING * size.max_element() && (closed_as_read || repeated + duplicates > 0) {
+    if size.min_element() <= NOTHING * size.max_element()
+        && (closed_as_read || repeated + duplicates > 0)
+    {
         return Err(format!(
             "the model has no thickness: {} x {} x {} mm",
             size.x, size.y, size.z
@@ -80,10 +98,26 @@ fn clean(mut mesh: TriMesh, notes: &mut Vec<String>) -> Result<TriMesh, String> 
     if mesh.faces.is_empty() {
         return Err("all faces of the model are degenerate".to_owned());
     }
-    note(repeated, "dropped face that repeats a vertex", "dropped faces that repeat a vertex");
-    note(duplicates, "dropped duplicate face", "dropped duplicate faces");
-    note(orient(&mut mesh), "turned face to match its neighbours", "turned faces to match their neighbours");
-    note(turn_outwards(&mut mesh), "turned closed surface outwards", "turned closed surfaces outwards");
+    note(
+        repeated,
+        "dropped face that repeats a vertex",
+        "dropped faces that repeat a vertex",
+    );
+    note(
+        duplicates,
+        "dropped duplicate face",
+        "dropped duplicate faces",
+    );
+    note(
+        orient(&mut mesh),
+        "turned face to match its neighbours",
+        "turned faces to match their neighbours",
+    );
+    note(
+        turn_outwards(&mut mesh),
+        "turned closed surface outwards",
+        "turned closed surfaces outwards",
+    );
     drop_unreferenced(&mut mesh);
     Ok(mesh)
 }
@@ -202,7 +236,9 @@ fn leftovers(mesh: &TriMesh) -> Vec<String> {
         .filter(|d| d.kind != DefectKind::UnreferencedVertex)
         .map(ToString::to_string)
         .collect();
-    let needles = (0..mesh.faces.len()).filter(|f| is_needle(mesh, *f)).count();
+    let needles = (0..mesh.faces.len())
+        .filter(|f| is_needle(mesh, *f))
+        .count();
     if needles > 0 {
         let noun = if needles == 1 { "face" } else { "faces" };
         left.push(format!("{needles} needle-thin {noun}"));
@@ -213,7 +249,10 @@ fn leftovers(mesh: &TriMesh) -> Vec<String> {
 /// Thinner than [`NEEDLE`], though not without area (that is a defect of its own).
 fn is_needle(mesh: &TriMesh, face: usize) -> bool {
     let [a, b, c] = mesh.corners(face);
-    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let longest = (b - a)
+        .length_squared()
+        .max((c - b).length_squared())
+        .max((a - c).length_squared());
     let height = mesh.area_vector(face).length() / longest;
     height > 0.0 && height < NEEDLE
 }
@@ -232,10 +271,20 @@ pub fn unit_suspicion(file: &str, mesh: &TriMesh) -> Option<Diagnostic> {
     let place = Place::File(file.to_owned());
     let side = tidy(longest);
     let message = match longest {
-        l if l < 0.002 => format!("the model is {side} mm long, less than a printable file can hold: in which unit was it saved?"),
-        l if l < 0.5 => format!("the model is {side} mm long: saved in metres? That would be {} mm", tidy(l * 1000.0)),
-        l if l < *USUAL.start() => format!("the model is {side} mm long: saved in inches? That would be {} mm", tidy(l * 25.4)),
-        l if l > *USUAL.end() => format!("the model is {side} mm long: in which unit was it saved?"),
+        l if l < 0.002 => format!(
+            "the model is {side} mm long, less than a printable file can hold: in which unit was it saved?"
+        ),
+        l if l < 0.5 => format!(
+            "the model is {side} mm long: saved in metres? That would be {} mm",
+            tidy(l * 1000.0)
+        ),
+        l if l < *USUAL.start() => format!(
+            "the model is {side} mm long: saved in inches? That would be {} mm",
+            tidy(l * 25.4)
+        ),
+        l if l > *USUAL.end() => {
+            format!("the model is {side} mm long: in which unit was it saved?")
+        }
         l if far > FAR * l => format!(
             "the model is {side} mm long but lies {} mm from the origin: files with 32-bit numbers keep steps of {} mm there",
             tidy(far),
