@@ -255,9 +255,12 @@ fn face_defects(mesh: &TriMesh) -> Vec<Defect> {
     defects
 }
 
+/// Whether an edge, given by its half-edges, has a defect.
+type EdgeTest = fn(&[HalfEdge]) -> bool;
+
 fn edge_defects(mesh: &TriMesh, edges: &Edges) -> Vec<Defect> {
     let mut defects = Vec::new();
-    let kinds: [(DefectKind, fn(&[HalfEdge]) -> bool); 3] = [
+    let kinds: [(DefectKind, EdgeTest); 3] = [
         (DefectKind::OpenEdge, |e| e.len() == 1),
         (DefectKind::CrowdedEdge, |e| e.len() > 2),
         (DefectKind::MixedWinding, |e| {

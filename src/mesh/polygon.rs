@@ -30,7 +30,7 @@ fn halve(n: u32) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(n as usize - 2);
     let mut chains = vec![(0, n - 1)];
     while let Some((first, last)) = chains.pop() {
-        let middle = (first + last + 1) / 2;
+        let middle = (first + last).div_ceil(2);
         triangles.push([first, middle, last]);
         chains.extend(
             [(first, middle), (middle, last)]

@@ -242,5 +242,6 @@ fn cancel_folds(mesh: &mut TriMesh) -> usize {
 
 /// Whether the indices are a rotation of their rising order.
 fn is_even([a, b, c]: [u32; 3]) -> bool {
-    (a < b && b < c) || (b < c && c < a) || (c < a && a < b)
+    let falls = [a > b, b > c, c > a];
+    falls.iter().filter(|f| **f).count() == 1
 }
