@@ -15,5 +15,6 @@ pub mod laplacian;
 pub mod mimic;
 pub mod relief;
 pub mod carve;
+pub mod formats;
 pub mod scene;
 pub mod compile;

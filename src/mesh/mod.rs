@@ -2,14 +2,17 @@
 
 pub mod boxes;
 pub mod defects;
+pub mod gate;
 pub mod intersect;
 pub mod mend;
+pub mod polygon;
 pub mod shells;
 pub mod solid;
 pub mod topology;
 pub mod weld;
 
 pub use defects::{Defect, DefectKind, check};
+pub use gate::gate;
 pub use intersect::self_intersections;
 pub use mend::mend;
 pub use solid::Solid;
@@ -46,9 +49,14 @@ impl TriMesh {
         self.area_vector(face).normalize_or_zero()
     }
 
-    /// Signed volume in cubic millimetres: meaningful for closed meshes.
+    /// Signed volume in cubic millimetres: meaningful for closed meshes. Keeps its digits far from the origin.
     pub fn volume(&self) -> f64 {
-        (0..self.faces.len()).map(|f| { let [a, b, c] = self.corners(f); a.dot(b.cross(c)) }).sum::<f64>() / 6.0
+        let origin = self.vertices.first().copied().unwrap_or_default();
+        let tetrahedron = |f| {
+            let [a, b, c] = self.corners(f).map(|v| v - origin);
+            a.dot(b.cross(c))
+        };
+        (0..self.faces.len()).map(tetrahedron).sum::<f64>() / 6.0
     }
 
     /// Surface area in square millimetres.
