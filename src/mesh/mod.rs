@@ -1,5 +1,9 @@
 //! Triangle meshes and what can be said of them without an eye.
 
+mod solid;
+
+pub use solid::{Defect, Solid};
+
 use glam::{DMat4, DVec3};
 
 /// An indexed triangle mesh. Faces turn counter-clockwise as seen from outside.
