@@ -1,7 +1,7 @@
 //! The plan's lower part: table of views, overview to scale, key, scale bar.
 
 use crate::diagram::Facts;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::lettering::{Face, width};
 use crate::diagram::map::eye_symbol;
 use crate::diagram::page::{BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale};
@@ -10,9 +10,11 @@ use glam::DVec2;
 
 /// Columns of the table, layout units.
 const NAME: f64 = 19.0;
-const EYE: f64 = 62.0;
-const PILLARS: f64 = 108.0;
-const WIDTH_SEEN: f64 = 141.0;
+const EYE: f64 = 58.0;
+/// Right edges.
+const PILLARS: f64 = 106.0;
+const ANGLE: f64 = 122.0;
+const COVERED: f64 = 141.0;
 /// The overview's box.
 const BOX: (f64, f64) = (150.0, 198.0);
 
@@ -26,32 +28,33 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 
 fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let head = page.style(2.7, Face::Light, QUIET, Anchor::Start);
-    let right = |style| crate::diagram::drawing::TextStyle { anchor: Anchor::End, ..style };
+    let right = |style| TextStyle { anchor: Anchor::End, ..style };
     let y = TABLE - 3.5;
     drawing.text(page.at(NAME, y), "view", head);
-    drawing.text(page.at(EYE, y), "eye (x, y, z) in mm", head);
-    drawing.text(page.at(PILLARS + 12.0, y), "pillars seen", right(head));
-    drawing.text(page.at(WIDTH_SEEN, y), "model width", right(head));
+    drawing.text(page.at(EYE, y), "eye x, y, z in mm", head);
+    drawing.text(page.at(PILLARS, y), "pillars", right(head));
+    drawing.text(page.at(ANGLE, y), "width", right(head));
+    drawing.text(page.at(COVERED, y), "covered", right(head));
     for (k, (view, sight)) in facts.views.iter().zip(&facts.sights).enumerate() {
         let y = TABLE + ROW * k as f64;
         let seen = (0..facts.supports.len()).filter(|s| sight.angle_of(*s) > 0.0).count();
         eye_symbol(drawing, page.at(14.6, y + 1.0), 2.6 * page.u, view.colour);
         let body = page.style(3.3, Face::Light, TEXT, Anchor::Start);
-        let name = crate::diagram::drawing::TextStyle { face: Face::Regular, ..body };
+        let name = TextStyle { face: Face::Regular, ..body };
         drawing.text(page.at(NAME, y + 2.2), &shortened(&view.name, 40.0 * page.u, name.size), name);
         let eye = format!("{}, {}, {}", plain(view.eye.x), plain(view.eye.y), plain(view.eye.z));
         drawing.text(page.at(EYE, y + 2.2), &eye, body);
-        drawing.text(page.at(PILLARS + 12.0, y + 2.2), &seen.to_string(), right(body));
+        drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));
         // Rounded down: a gap, however thin, never reads as 100 %.
         let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
-        let text = format!("{:.1}°,  {covered} % met", sight.width().to_degrees());
-        drawing.text(page.at(WIDTH_SEEN, y + 2.2), &text, right(body));
+        drawing.text(page.at(ANGLE, y + 2.2), &format!("{:.1}°", sight.width().to_degrees()), right(body));
+        drawing.text(page.at(COVERED, y + 2.2), &format!("{covered} %"), right(body));
     }
 }
 
 /// One decimal, and none for whole numbers; never -0.
 fn plain(x: f64) -> String {
-    format!("{}", (10.0 * x).round() / 10.0 + 0.0)
+    format!("{}", (10.0 * x).round() / 10.0 + 0.0).replace('-', "\u{2212}")
 }
 
 /// A name cut to a width, with an ellipsis.
@@ -108,12 +111,12 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 fn key(drawing: &mut Drawing, page: &Page) {
     let y = page.bottom() - 25.0;
     let style = page.style(3.0, Face::Light, TEXT, Anchor::Start);
-    let green = [0x8A, 0x8F, 0x94];
+    let grey = [0x8A, 0x8F, 0x94];
     let swatch = |x: f64| (page.at(x, y - 3.0), page.at(x + 6.0, y + 0.6));
     let (lo, hi) = swatch(12.0);
-    drawing.rect(lo, hi, Some(Ink::new(green).fade(0.3)), Some(Pen::new(Ink::new(green).fade(0.8), 0.2 * page.u)));
+    drawing.rect(lo, hi, Some(Ink::new(grey).fade(0.3)), Some(Pen::new(Ink::new(grey).fade(0.8), 0.2 * page.u)));
     drawing.text(page.at(20.0, y), "visible range", style);
-    drawing.circle(page.at(46.0, y - 1.2), 2.0 * page.u, Some(pale(green, 0.3)), Some(Pen::new(deep(green, 0.35), 0.25 * page.u)));
+    drawing.circle(page.at(46.0, y - 1.2), 2.0 * page.u, Some(pale(grey, 0.3)), Some(Pen::new(deep(grey, 0.35), 0.25 * page.u)));
     drawing.text(page.at(49.6, y), "pillar in its view's colour", style);
     drawing.circle(page.at(90.0, y - 1.2), 2.0 * page.u, Some(FREE), Some(Pen::new(QUIET, 0.25 * page.u)));
     drawing.text(page.at(93.6, y), "unseen", style);

@@ -5,7 +5,7 @@ use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, Shape, Step, TextStyle}
 use crate::diagram::lettering::{Face, width};
 use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RANGE, RED, TEXT, deep, length, outline, pale};
 use crate::diagram::sight::{Run, Sight};
-use crate::support::SupportKind;
+use crate::support::{Support, SupportKind};
 use crate::view::View;
 use glam::DVec2;
 
@@ -58,9 +58,9 @@ fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: 
         let Some((near, far)) = near(side).zip(far(side)) else { continue };
         drawing.polyline(&[near, far], Pen::new(deep(colour, 0.1).fade(0.8), 0.22 * page.u));
         // A far eye's sight lines go on a little beyond the rim.
-        let outward = (near - far).normalize_or_zero() * 6.0 * page.u;
+        let outward = (near - far).normalize_or_zero() * 3.2 * page.u;
         if page.stand(sight.eye).1 {
-            drawing.polyline(&[near, near + outward], Pen::new(deep(colour, 0.1).fade(0.8), 0.22 * page.u).dashed(0.9 * page.u, 0.9 * page.u));
+            drawing.polyline(&[near, near + outward], Pen::new(deep(colour, 0.1).fade(0.8), 0.22 * page.u).dashed(0.6 * page.u, 0.8 * page.u));
         }
     }
 }
@@ -91,31 +91,47 @@ fn constrained(drawing: &mut Drawing, page: &Page, facts: &Facts, sight: &Sight,
     drawing.polyline(&page.outline(&line), Pen::new(RED, 0.55 * page.u));
 }
 
-/// Numbers stand behind the axis as the owner sees it, off the constrained segment.
+/// Numbers stand behind their pillar as the owner sees it, in its shadow; on the pillar where another one is in the way.
 fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+    let discs: Vec<(DVec2, f64)> = facts.supports.iter().filter_map(disc).collect();
     for (k, support) in facts.supports.iter().enumerate() {
-        let SupportKind::Pillar { axis, profile, .. } = &support.kind else { continue };
-        let reach = profile.iter().map(|p| p.distance(*axis)).fold(0.0, f64::max);
+        let Some((axis, reach)) = disc(support) else { continue };
         let text = k.to_string();
-        let size = (0.78 * reach).min(3.0 * page.u);
+        let size = (0.9 * reach).min(3.0 * page.u);
         // Smaller ones could not be read on A4.
         if size < 0.9 * page.u {
             continue;
         }
-        let away = facts.owners[k].map_or(DVec2::ZERO, |v| (*axis - facts.sights[v].eye).normalize_or_zero());
-        let middle = page.place(*axis + 0.52 * reach * away);
-        let style = TextStyle { size, ink: TEXT, face: Face::Regular, anchor: Anchor::Middle, halo: None };
+        let away = facts.owners[k].map_or(DVec2::ZERO, |v| (axis - facts.sights[v].eye).normalize_or_zero());
+        let half = DVec2::new(width(&text, size, Face::Regular), 0.7 * size) / 2.0;
+        let behind = axis + (reach + 0.25 * size + half.dot(away.abs())) * away;
+        let room = half.length() + 0.1 * size;
+        let free = away != DVec2::ZERO && !discs.iter().any(|(other, r)| *other != axis && other.distance(behind) < r + room);
+        let ink = facts.owners[k].filter(|_| free).map_or(TEXT, |v| deep(facts.views[v].colour, 0.45));
+        let middle = page.place(if free { behind } else { axis });
+        let style = TextStyle { size, ink, face: Face::Regular, anchor: Anchor::Middle, halo: (!free).then_some(PAPER.fade(0.7)) };
         drawing.text(middle + DVec2::new(0.0, 0.35 * size), &text, style);
     }
 }
 
+/// A pillar's axis and the radius of the circle around it.
+fn disc(support: &Support) -> Option<(DVec2, f64)> {
+    let SupportKind::Pillar { axis, profile, .. } = &support.kind else { return None };
+    Some((*axis, profile.iter().map(|p| p.distance(*axis)).fold(0.0, f64::max)))
+}
+
 fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let stands: Vec<(DVec2, bool)> = facts.views.iter().map(|v| page.stand(v.eye.truncate())).collect();
-    let mut taken: Vec<Block> = stands.iter().map(|(p, _)| Block::around(page.place(*p), DVec2::splat(EYE * page.u))).collect();
-    for (view, (stand, far)) in facts.views.iter().zip(&stands) {
+    let ways: Vec<DVec2> = facts.views.iter().zip(&stands).map(|(v, s)| page.place(v.look_at.truncate()) - page.place(s.0)).collect();
+    let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
+    let mut taken: Vec<Block> = Vec::new();
+    for ((stand, _), ahead) in stands.iter().zip(&ways) {
         let at = page.place(*stand);
-        let target = page.place(view.look_at.truncate());
-        let ahead = (target - at).normalize_or_zero();
+        taken.push(Block::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
+        taken.push(Block::around(at + 10.0 * page.u * *ahead, DVec2::splat(1.2 * page.u) + 5.0 * page.u * ahead.abs()));
+    }
+    for ((view, (stand, far)), &ahead) in facts.views.iter().zip(&stands).zip(&ways) {
+        let at = page.place(*stand);
         arrow(drawing, page, at, ahead, *far, view.colour);
         eye_symbol(drawing, at, EYE * page.u, view.colour);
         label(drawing, page, view, at, -ahead, *far, &mut taken);
@@ -163,8 +179,8 @@ fn label(drawing: &mut Drawing, page: &Page, view: &View, at: DVec2, outward: DV
     let u = page.u;
     let name = page.style(4.4, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
     let note = page.style(3.1, Face::Light, QUIET, Anchor::Middle);
-    let distance = view.eye.truncate().distance(view.look_at.truncate());
-    let line = if far { format!("{} away", length(distance)) } else { length(distance) };
+    let distance = length(view.eye.distance(view.look_at));
+    let line = if far { format!("{distance} away") } else { distance };
     let half = DVec2::new(width(&view.name, name.size, name.face).max(width(&line, note.size, note.face)) / 2.0, 4.3 * u);
     let offset = |d: DVec2| d * (half + DVec2::new(EYE + 0.8, 3.2) * u);
     // Above or below, whichever is further out, then the sides, then the corners.

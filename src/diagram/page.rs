@@ -25,7 +25,7 @@ const MIDDLE: f64 = 129.0;
 /// Up to here fans are drawn, and eyes stand where they are, in radii of the forest.
 pub const RANGE: f64 = 1.24;
 /// Here stand the eyes that are further away.
-pub const RIM: f64 = 1.42;
+pub const RIM: f64 = 1.45;
 /// Top of the table of views, and the height of one of its rows.
 pub const TABLE: f64 = 240.0;
 pub const ROW: f64 = 6.0;

@@ -135,7 +135,7 @@ fn model_xml(parts: &[Part], meta: &Metadata) -> String {
     let mut xml = String::with_capacity(size + 4096);
     xml.push_str(
         r#"<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02" xmlns:pillarforest="https://pillarforest.invalid/3mf/1">
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02" xmlns:pillarforest="urn:pillarforest:metadata:1">
 "#,
     );
     push_metadata(&mut xml, meta);
