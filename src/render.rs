@@ -187,9 +187,10 @@ fn captions(drawing: &mut Drawing, view: &View, likeness: &Likeness, columns: [f
     let files: Vec<&str> = view.models.iter().map(|m| m.file.as_str()).collect();
     put(columns[0], top, &format!("{}: the target", view.name), head);
     put(columns[0], below, &files.join(", "), body);
-    let DVec3 { x, y, z } = view.eye;
+    let DVec3 { x, y, z } = view.eye.round() + 0.0;
     put(columns[1], top, "the forest from its eye", head);
-    put(columns[1], below, &format!("eye at {x:.0}, {y:.0}, {z:.0} mm; {:.2} % of the target's rays meet it", floor2(100.0 * likeness.hit)), body);
+    let eye = format!("{x:.0}, {y:.0}, {z:.0} mm").replace('-', "\u{2212}");
+    put(columns[1], below, &format!("eye at {eye}; {:.2} % of the target's rays meet it", floor2(100.0 * likeness.hit)), body);
     let Likeness { mean_deg, median_deg, p90_deg, .. } = *likeness;
     put(columns[2], top, "error of the normals", head);
     put(columns[2], below, &format!("mean {mean_deg:.1}°, median {median_deg:.1}°, 90 % below {p90_deg:.1}°"), body);

@@ -41,7 +41,7 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         eye_symbol(drawing, page.at(14.6, y + 1.0), 2.6 * page.u, view.colour);
         let body = page.style(3.3, Face::Light, TEXT, Anchor::Start);
         let name = TextStyle { face: Face::Regular, ..body };
-        drawing.text(page.at(NAME, y + 2.2), &shortened(&view.name, 40.0 * page.u, name.size), name);
+        drawing.text(page.at(NAME, y + 2.2), &shortened(&view.name, 36.0 * page.u, name.size), name);
         let eye = format!("{}, {}, {}", plain(view.eye.x), plain(view.eye.y), plain(view.eye.z));
         drawing.text(page.at(EYE, y + 2.2), &eye, body);
         drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));

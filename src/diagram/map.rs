@@ -91,9 +91,9 @@ fn constrained(drawing: &mut Drawing, page: &Page, facts: &Facts, sight: &Sight,
     drawing.polyline(&page.outline(&line), Pen::new(RED, 0.55 * page.u));
 }
 
-/// Numbers stand behind their pillar as the owner sees it, in its shadow; on the pillar where another one is in the way.
+/// Numbers stand behind their pillar as the owner sees it, in its shadow; on the pillar where there is no room around it.
 fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    let discs: Vec<(DVec2, f64)> = facts.supports.iter().filter_map(disc).collect();
+    let mut discs: Vec<(DVec2, f64)> = facts.supports.iter().filter_map(disc).collect();
     for (k, support) in facts.supports.iter().enumerate() {
         let Some((axis, reach)) = disc(support) else { continue };
         let text = k.to_string();
@@ -102,15 +102,17 @@ fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         if size < 0.9 * page.u {
             continue;
         }
-        let away = facts.owners[k].map_or(DVec2::ZERO, |v| (axis - facts.sights[v].eye).normalize_or_zero());
         let half = DVec2::new(width(&text, size, Face::Regular), 0.7 * size) / 2.0;
-        let behind = axis + (reach + 0.25 * size + half.dot(away.abs())) * away;
         let room = half.length() + 0.1 * size;
-        let free = away != DVec2::ZERO && !discs.iter().any(|(other, r)| *other != axis && other.distance(behind) < r + room);
-        let ink = facts.owners[k].filter(|_| free).map_or(TEXT, |v| deep(facts.views[v].colour, 0.45));
-        let middle = page.place(if free { behind } else { axis });
-        let style = TextStyle { size, ink, face: Face::Regular, anchor: Anchor::Middle, halo: (!free).then_some(PAPER.fade(0.7)) };
-        drawing.text(middle + DVec2::new(0.0, 0.35 * size), &text, style);
+        let away = facts.owners[k].and_then(|v| (axis - facts.sights[v].eye).try_normalize());
+        let around = away.into_iter().flat_map(|away| [0.0, 0.5, -0.5, 1.0, -1.0].map(|turn| DVec2::from_angle(turn).rotate(away)));
+        let mut places = around.map(|way| axis + (reach + 0.25 * size + half.dot(way.abs())) * way);
+        let free = places.find(|p| !discs.iter().any(|(other, r)| *other != axis && other.distance(*p) < r + room));
+        let ink = facts.owners[k].filter(|_| free.is_some()).map_or(TEXT, |v| deep(facts.views[v].colour, 0.45));
+        let halo = free.is_none().then_some(PAPER.fade(0.7));
+        let style = TextStyle { size, ink, face: Face::Regular, anchor: Anchor::Middle, halo };
+        drawing.text(page.place(free.unwrap_or(axis)) + DVec2::new(0.0, 0.35 * size), &text, style);
+        discs.extend(free.map(|place| (place, half.length())));
     }
 }
 

@@ -15,7 +15,10 @@ const STANDPOINT: DVec3 = DVec3::new(0.62, -1.0, 0.72);
 const DISTANCE: f64 = 5.0;
 
 /// Directions that probe how open a place is, in the frame of its normal. More cost time, fewer show bands.
-const PROBES: usize = 12;
+const PROBES: usize = 8;
+
+/// Side in pixels of the tile over which the probes' directions turn once.
+const TILE: usize = 4;
 
 /// How far the probes look, in radii of the forest.
 const PROBE_REACH: f64 = 0.25;
@@ -25,8 +28,7 @@ pub fn thumbnail(forest: &TriMesh, bvh: &Bvh, colours: Option<&[[u8; 3]]>, size_
     let size = size_px.clamp(16, 2048) as usize;
     let studio = Studio::new(forest, bvh, colours, size);
     let sun = sun(&studio.plane);
-    let centre = |k: usize| studio.meet((k % size) as f64 + 0.5, (k / size) as f64 + 0.5);
-    let open: Vec<f64> = (0..size * size).into_par_iter().map(|k| centre(k).map_or(1.0, |m| studio.openness(&m))).collect();
+    let open = openness(&studio, size);
     let cast = |x: f64, y: f64| {
         let Some(meet) = studio.meet(x, y) else { return [shading::BACKGROUND] };
         // How open a place is changes slowly: it is probed once a pixel.
@@ -39,6 +41,24 @@ pub fn thumbnail(forest: &TriMesh, bvh: &Bvh, colours: Option<&[[u8; 3]]>, size_
         slot[..3].copy_from_slice(&rgb.map(|c| c.round().clamp(0.0, 255.0) as u8));
     }
     raster::encode(&pixmap)
+}
+
+/// How open the place in every pixel is, 0 to 1. Neighbours probe different directions; their mean has neither noise nor bands.
+fn openness(studio: &Studio, size: usize) -> Vec<f64> {
+    let meet = |k: usize| studio.meet((k % size) as f64 + 0.5, (k / size) as f64 + 0.5);
+    let meets: Vec<Option<Meet>> = (0..size * size).into_par_iter().map(meet).collect();
+    let turn = |k: usize| (TILE * (k / size % TILE) + k % size % TILE) as f64 / (TILE * TILE) as f64;
+    let rough: Vec<f64> = meets.par_iter().enumerate().map(|(k, m)| m.as_ref().map_or(1.0, |m| studio.openness(m, turn(k)))).collect();
+    let mean = |k: usize| {
+        let Some(own) = &meets[k] else { return 1.0 };
+        let (x, y) = ((k % size).saturating_sub(TILE / 2), (k / size).saturating_sub(TILE / 2));
+        let tile = (y..(y + TILE).min(size)).flat_map(|y| (x..(x + TILE).min(size)).map(move |x| y * size + x));
+        let alike = |m: &Meet| m.normal.dot(own.normal) > 0.8 && m.place.distance(own.place) < 0.1 * studio.radius;
+        let kin = tile.filter(|&other| meets[other].as_ref().is_some_and(alike));
+        let (sum, count) = kin.fold((rough[k], 1.0), |(sum, count), other| (sum + rough[other], count + 1.0));
+        sum / count
+    };
+    (0..size * size).into_par_iter().map(mean).collect()
 }
 
 /// Towards the light: high, from the left behind the camera.
@@ -95,11 +115,12 @@ impl<'a> Studio<'a> {
     }
 
     /// Share of the directions above a facet, weighted by their cosine, that nothing near blocks.
-    fn openness(&self, meet: &Meet) -> f64 {
+    /// `twist`, 0 to 1, turns the directions about the normal.
+    fn openness(&self, meet: &Meet, twist: f64) -> f64 {
         let (tangent, bitangent) = meet.normal.any_orthonormal_pair();
         let open = (0..PROBES).filter(|&k| {
-            // Golden-angle spiral over the disc, lifted to the hemisphere: the same for every pixel, so there is no noise.
-            let (radius, turn) = (((k as f64 + 0.5) / PROBES as f64).sqrt(), 2.399_963 * k as f64);
+            // Golden-angle spiral over the disc, lifted to the hemisphere.
+            let (radius, turn) = (((k as f64 + 0.5) / PROBES as f64).sqrt(), 2.399_963 * k as f64 + std::f64::consts::TAU * twist);
             let up = (1.0 - radius * radius).sqrt();
             let direction = radius * turn.cos() * tangent + radius * turn.sin() * bitangent + up * meet.normal;
             !self.bvh.blocked(meet.place, direction, PROBE_REACH * self.radius)
