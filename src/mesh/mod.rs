@@ -1,8 +1,18 @@
 //! Triangle meshes and what can be said of them without an eye.
 
-mod solid;
+pub mod boxes;
+pub mod defects;
+pub mod intersect;
+pub mod shells;
+pub mod solid;
+pub mod topology;
+pub mod weld;
 
-pub use solid::{Defect, Solid};
+pub use defects::{Defect, DefectKind, check};
+pub use intersect::self_intersections;
+pub use solid::Solid;
+pub use topology::{face_components, face_neighbours, vertex_parts};
+pub use weld::{snap_to_f32, weld};
 
 use glam::{DMat4, DVec3};
 

@@ -1,0 +1,145 @@
+//! A tree of boxes in f64, for exact overlap questions.
+//!
+//! Takes closed boxes, gives for a query box every box that overlaps or touches it. Nothing is padded or rounded.
+//! (The trees of the `bvh` module are f32 and made for rays.)
+
+use crate::mesh::TriMesh;
+use glam::DVec3;
+
+/// A closed box: smallest and largest corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Box3 {
+    pub lo: DVec3,
+    pub hi: DVec3,
+}
+
+impl Box3 {
+    pub fn of_face(mesh: &TriMesh, face: usize) -> Self {
+        let [a, b, c] = mesh.corners(face);
+        Self {
+            lo: a.min(b).min(c),
+            hi: a.max(b).max(c),
+        }
+    }
+
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+        }
+    }
+}
+
+/// More boxes in a leaf make the tree smaller but each query test more boxes; 2 to 8 are within 20 % of each other.
+const LEAF: usize = 4;
+/// Halving 2^32 boxes down to leaves needs fewer levels than this.
+const MAX_DEPTH: usize = 48;
+
+struct Node {
+    bounds: Box3,
+    /// A leaf's items are `first .. first + count`; an inner node has `count` 0, its left child follows it directly
+    /// and `first` is its right child.
+    first: u32,
+    count: u32,
+}
+
+/// Boxes in a balanced tree.
+pub struct BoxTree {
+    nodes: Vec<Node>,
+    /// Box numbers and boxes in tree order.
+    order: Vec<u32>,
+    boxes: Vec<Box3>,
+}
+
+impl BoxTree {
+    pub fn new(boxes: &[Box3]) -> Self {
+        let centres: Vec<DVec3> = boxes.iter().map(|b| b.lo + b.hi).collect();
+        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut nodes = Vec::new();
+        if !boxes.is_empty() {
+            split(&mut order, 0, boxes, &centres, &mut nodes);
+        }
+        let boxes = order.iter().map(|&i| boxes[i as usize]).collect();
+        Self {
+            nodes,
+            order,
+            boxes,
+        }
+    }
+
+    /// Box numbers in an order in which neighbours are near each other.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Calls `visit` with the number of every box that meets `query`; stops when it returns false.
+    pub fn overlapping(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) {
+        let mut stack = [0u32; MAX_DEPTH];
+        let mut depth = usize::from(!self.nodes.is_empty());
+        while depth > 0 {
+            depth -= 1;
+            let index = stack[depth];
+            let node = &self.nodes[index as usize];
+            if !node.bounds.overlaps(query) {
+                continue;
+            }
+            if node.count == 0 {
+                stack[depth] = node.first;
+                stack[depth + 1] = index + 1;
+                depth += 2;
+                continue;
+            }
+            for item in node.first as usize..(node.first + node.count) as usize {
+                if self.boxes[item].overlaps(query) && !visit(self.order[item]) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Adds the nodes of `order`, whose first item is item `offset` of the tree; halves at the median of the widest axis.
+fn split(
+    order: &mut [u32],
+    offset: usize,
+    boxes: &[Box3],
+    centres: &[DVec3],
+    nodes: &mut Vec<Node>,
+) {
+    let bounds = order
+        .iter()
+        .map(|&i| boxes[i as usize])
+        .reduce(Box3::union)
+        .expect("split is called with at least one box");
+    let index = nodes.len();
+    let (first, count) = (offset as u32, order.len() as u32);
+    nodes.push(Node {
+        bounds,
+        first,
+        count,
+    });
+    if order.len() <= LEAF {
+        return;
+    }
+    let axis = centre_spread(order, centres).max_position();
+    let middle = order.len() / 2;
+    let key = |i: &u32| centres[*i as usize][axis];
+    order.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+    let (left, right) = order.split_at_mut(middle);
+    split(left, offset, boxes, centres, nodes);
+    nodes[index].first = nodes.len() as u32;
+    nodes[index].count = 0;
+    split(right, offset + middle, boxes, centres, nodes);
+}
+
+fn centre_spread(order: &[u32], centres: &[DVec3]) -> DVec3 {
+    let first = centres[order[0] as usize];
+    let (lo, hi) = order.iter().fold((first, first), |(lo, hi), &i| {
+        (lo.min(centres[i as usize]), hi.max(centres[i as usize]))
+    });
+    hi - lo
+}

@@ -1,0 +1,297 @@
+//! What is wrong with a mesh, as values: how many of each kind and one place to look at.
+//!
+//! Takes a welded mesh (vertices at the same place are one vertex; else every seam is an open edge). A mesh without
+//! blocking defects bounds a printable body: closed, consistently wound, every edge with two faces, every vertex with
+//! one fan, no two faces in each other's way, material inside.
+
+use crate::mesh::TriMesh;
+use crate::mesh::intersect::{projection_axis, self_intersections};
+use crate::mesh::shells::{Shell, shells};
+use crate::mesh::topology::{Edges, HalfEdge, bowtie_vertices};
+use crate::mesh::weld::duplicate_groups;
+use glam::DVec3;
+use std::fmt;
+
+/// Kinds of defects, in the order in which they are reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum DefectKind {
+    NoFaces,
+    /// Coordinates that are not finite numbers.
+    NonFinite,
+    /// Faces with a vertex index that does not exist.
+    BadIndex,
+    /// Faces that name a vertex twice.
+    RepeatedIndex,
+    /// Faces whose three different corners lie on one line.
+    ZeroArea,
+    /// Faces with the same three vertices as an earlier face.
+    DuplicateFace,
+    /// Edges with one face only.
+    OpenEdge,
+    /// Edges with three or more faces.
+    CrowdedEdge,
+    /// Edges whose two faces run the same way along them.
+    MixedWinding,
+    /// Vertices in which separate fans of faces meet tip to tip.
+    BowtieVertex,
+    /// Pairs of faces that cut, touch or overlap.
+    SelfIntersection,
+    /// The whole encloses no volume, or a negative one.
+    InsideOut,
+    /// Some shells face the wrong way, or lie inside of the material of another.
+    MisplacedShell,
+    /// Vertices that no face uses.
+    UnreferencedVertex,
+}
+
+/// One kind of defect of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defect {
+    pub kind: DefectKind,
+    /// How many.
+    pub count: usize,
+    /// Whether counting was stopped at `count`.
+    pub at_least: bool,
+    /// One example, millimetres.
+    pub place: Option<DVec3>,
+}
+
+impl Defect {
+    fn new(kind: DefectKind, count: usize, place: Option<DVec3>) -> Self {
+        Self {
+            kind,
+            count,
+            at_least: false,
+            place,
+        }
+    }
+
+    /// Whether a mesh with it bounds no printable body.
+    pub fn blocks_printing(&self) -> bool {
+        self.kind != DefectKind::UnreferencedVertex
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use DefectKind::*;
+        let (one, many) = match self.kind {
+            NoFaces => return f.write_str("no faces"),
+            InsideOut => return f.write_str("encloses no volume or is inside out"),
+            NonFinite => (
+                "vertex that is not a finite point",
+                "vertices that are not finite points",
+            ),
+            BadIndex => (
+                "face with an index out of range",
+                "faces with indices out of range",
+            ),
+            RepeatedIndex => (
+                "face that uses a vertex twice",
+                "faces that use a vertex twice",
+            ),
+            ZeroArea => ("face without area", "faces without area"),
+            DuplicateFace => ("duplicate face", "duplicate faces"),
+            OpenEdge => (
+                "open edge (border of a hole)",
+                "open edges (borders of holes)",
+            ),
+            CrowdedEdge => (
+                "edge with more than two faces",
+                "edges with more than two faces",
+            ),
+            MixedWinding => (
+                "edge between faces that face opposite ways",
+                "edges between faces that face opposite ways",
+            ),
+            BowtieVertex => (
+                "vertex where surfaces only touch",
+                "vertices where surfaces only touch",
+            ),
+            SelfIntersection => (
+                "pair of faces that cut or touch each other",
+                "pairs of faces that cut or touch each other",
+            ),
+            MisplacedShell => (
+                "closed surface that is inside out or inside another body",
+                "closed surfaces that are inside out or inside another body",
+            ),
+            UnreferencedVertex => ("vertex without a face", "vertices without a face"),
+        };
+        let least = if self.at_least { "at least " } else { "" };
+        let noun = if self.count == 1 { one } else { many };
+        write!(f, "{least}{} {noun}", self.count)?;
+        match self.place {
+            Some(p) => write!(
+                f,
+                ", {} ({:.3}, {:.3}, {:.3})",
+                if self.count == 1 { "at" } else { "one at" },
+                p.x,
+                p.y,
+                p.z
+            ),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Pairs of intersecting faces are counted up to here: a mesh with that many is hopeless, and one with all faces in one
+/// place has quadratically many.
+const MAX_PAIRS: usize = 20_000;
+
+/// All defects of a welded mesh, in the order of [`DefectKind`]; empty for a printable one.
+///
+/// Intersections are looked for in any mesh with finite coordinates, the way shells lie only in otherwise sound ones.
+pub fn check(mesh: &TriMesh) -> Vec<Defect> {
+    let fatal = unreadable(mesh);
+    if !fatal.is_empty() {
+        return fatal;
+    }
+    let edges = Edges::new(mesh);
+    let mut defects = face_defects(mesh);
+    defects.extend(edge_defects(mesh, &edges));
+    let bowties = bowtie_vertices(mesh, &edges);
+    push(
+        &mut defects,
+        DefectKind::BowtieVertex,
+        bowties.len(),
+        || mesh.vertices[bowties[0] as usize],
+    );
+    let pairs = self_intersections(mesh, MAX_PAIRS);
+    push(
+        &mut defects,
+        DefectKind::SelfIntersection,
+        pairs.len(),
+        || meeting_place(mesh, pairs[0]),
+    );
+    if let Some(last) = defects.last_mut().filter(|_| pairs.len() >= MAX_PAIRS) {
+        last.at_least = true;
+    }
+    if defects.is_empty() {
+        defects.extend(shell_defects(mesh));
+    }
+    defects.extend(unreferenced(mesh));
+    defects
+}
+
+fn push(defects: &mut Vec<Defect>, kind: DefectKind, count: usize, place: impl FnOnce() -> DVec3) {
+    if count > 0 {
+        defects.push(Defect::new(kind, count, Some(place())));
+    }
+}
+
+/// What keeps all other checks from working.
+fn unreadable(mesh: &TriMesh) -> Vec<Defect> {
+    if mesh.faces.is_empty() {
+        return vec![Defect::new(DefectKind::NoFaces, 1, None)];
+    }
+    let counts = [
+        (
+            DefectKind::NonFinite,
+            mesh.vertices.iter().filter(|v| !v.is_finite()).count(),
+        ),
+        (
+            DefectKind::BadIndex,
+            mesh.faces
+                .iter()
+                .filter(|f| f.iter().any(|v| *v as usize >= mesh.vertices.len()))
+                .count(),
+        ),
+    ];
+    counts
+        .into_iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(kind, count)| Defect::new(kind, count, None))
+        .collect()
+}
+
+fn face_defects(mesh: &TriMesh) -> Vec<Defect> {
+    let mut defects = Vec::new();
+    let repeats = |f: usize| {
+        let [a, b, c] = mesh.faces[f];
+        a == b || b == c || c == a
+    };
+    let faces = 0..mesh.faces.len();
+    let repeated: Vec<usize> = faces.clone().filter(|f| repeats(*f)).collect();
+    push(
+        &mut defects,
+        DefectKind::RepeatedIndex,
+        repeated.len(),
+        || mesh.corners(repeated[0])[0],
+    );
+    let flat: Vec<usize> = faces
+        .filter(|f| !repeats(*f) && projection_axis(&mesh.corners(*f)).is_none())
+        .collect();
+    push(&mut defects, DefectKind::ZeroArea, flat.len(), || {
+        centre(mesh, flat[0])
+    });
+    let duplicates = duplicate_groups(mesh);
+    let extra = duplicates.iter().map(|g| g.len() - 1).sum();
+    push(&mut defects, DefectKind::DuplicateFace, extra, || {
+        centre(mesh, duplicates[0][1] as usize)
+    });
+    defects
+}
+
+fn edge_defects(mesh: &TriMesh, edges: &Edges) -> Vec<Defect> {
+    let mut defects = Vec::new();
+    let kinds: [(DefectKind, fn(&[HalfEdge]) -> bool); 3] = [
+        (DefectKind::OpenEdge, |e| e.len() == 1),
+        (DefectKind::CrowdedEdge, |e| e.len() > 2),
+        (DefectKind::MixedWinding, |e| {
+            e.len() == 2 && e[0].forward == e[1].forward
+        }),
+    ];
+    for (kind, is_bad) in kinds {
+        let bad: Vec<&[HalfEdge]> = edges.iter().filter(|e| is_bad(e)).collect();
+        push(&mut defects, kind, bad.len(), || {
+            let end = |v: u32| mesh.vertices[v as usize];
+            end(bad[0][0].low).midpoint(end(bad[0][0].high))
+        });
+    }
+    defects
+}
+
+/// The way the shells of a closed mesh lie.
+fn shell_defects(mesh: &TriMesh) -> Vec<Defect> {
+    let shells = shells(mesh);
+    let volume: f64 = shells.iter().map(|s| s.volume).sum();
+    let wrong: Vec<&Shell> = shells.iter().filter(|s| !s.is_sound()).collect();
+    let mut defects = Vec::new();
+    if volume <= 0.0 {
+        defects.push(Defect::new(DefectKind::InsideOut, 1, None));
+    }
+    if shells.len() > 1 {
+        push(
+            &mut defects,
+            DefectKind::MisplacedShell,
+            wrong.len(),
+            || mesh.corners(wrong[0].first_face as usize)[0],
+        );
+    }
+    defects
+}
+
+fn unreferenced(mesh: &TriMesh) -> Option<Defect> {
+    let mut used = vec![false; mesh.vertices.len()];
+    for v in mesh.faces.iter().flatten() {
+        used[*v as usize] = true;
+    }
+    let count = used.iter().filter(|u| !**u).count();
+    let first = used.iter().position(|u| !*u)?;
+    Some(Defect::new(
+        DefectKind::UnreferencedVertex,
+        count,
+        Some(mesh.vertices[first]),
+    ))
+}
+
+fn centre(mesh: &TriMesh, face: usize) -> DVec3 {
+    mesh.corners(face).into_iter().sum::<DVec3>() / 3.0
+}
+
+/// A point near which two faces meet: the middle of what their boxes share.
+fn meeting_place(mesh: &TriMesh, [a, b]: [u32; 2]) -> DVec3 {
+    let [a, b] = [a, b].map(|f| crate::mesh::boxes::Box3::of_face(mesh, f as usize));
+    a.lo.max(b.lo).midpoint(a.hi.min(b.hi))
+}

@@ -1,0 +1,199 @@
+//! Pairs of faces that cut, touch or overlap each other where they should not.
+//!
+//! Takes a welded mesh with finite coordinates; gives every pair of faces that have a point in common beyond the
+//! vertices and the edge they share. Exact: only signs of adaptive-precision determinants decide (Shewchuk 1997), so
+//! a vertex that lies exactly on a foreign face counts and one a rounding error above it does not.
+//! Faces of zero area and faces with the same three vertices are left out: they are other defects.
+
+use crate::mesh::TriMesh;
+use crate::mesh::boxes::{Box3, BoxTree};
+use glam::DVec3;
+use rayon::prelude::*;
+use robust::{Coord, Coord3D};
+
+/// Faces tested between two looks at the limit: large enough to keep all cores busy.
+const BLOCK: usize = 1 << 14;
+
+/// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
+/// "and perhaps more"; which ones it then holds still depends on the mesh alone.
+pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[u32; 2]> {
+    let boxes: Vec<Box3> = (0..mesh.faces.len())
+        .map(|f| Box3::of_face(mesh, f))
+        .collect();
+    let flat: Vec<Option<usize>> = (0..mesh.faces.len())
+        .into_par_iter()
+        .map(|f| projection_axis(&mesh.corners(f)))
+        .collect();
+    let tree = BoxTree::new(&boxes);
+    let mut pairs = Vec::new();
+    for block in tree.order().chunks(BLOCK) {
+        let found: Vec<Vec<[u32; 2]>> = block
+            .par_iter()
+            .map(|&a| partners(mesh, &flat, &tree, &boxes, a, limit))
+            .collect();
+        pairs.extend(found.into_iter().flatten());
+        if pairs.len() >= limit {
+            break;
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// The pairs of face `a` with higher faces.
+fn partners(
+    mesh: &TriMesh,
+    flat: &[Option<usize>],
+    tree: &BoxTree,
+    boxes: &[Box3],
+    a: u32,
+    limit: usize,
+) -> Vec<[u32; 2]> {
+    let mut pairs = Vec::new();
+    let Some(axis_a) = flat[a as usize] else {
+        return pairs;
+    };
+    tree.overlapping(&boxes[a as usize], |b| {
+        if b > a
+            && let Some(axis_b) = flat[b as usize]
+            && faces_intersect(mesh, [a as usize, b as usize], [axis_a, axis_b])
+        {
+            pairs.push([a, b]);
+        }
+        pairs.len() < limit
+    });
+    pairs
+}
+
+fn faces_intersect(mesh: &TriMesh, [a, b]: [usize; 2], [axis_a, axis_b]: [usize; 2]) -> bool {
+    let (va, vb) = (mesh.faces[a], mesh.faces[b]);
+    let shared_a = [0, 1, 2].map(|k| vb.contains(&va[k]));
+    let (ta, tb) = (
+        Flat::new(mesh.corners(a), axis_a),
+        Flat::new(mesh.corners(b), axis_b),
+    );
+    match shared_a.iter().filter(|s| **s).count() {
+        0 => separate_faces_meet(&ta, &tb),
+        1 => {
+            let apex_a = shared_a.iter().position(|s| *s).unwrap_or(0);
+            let apex_b = vb.iter().position(|v| *v == va[apex_a]).unwrap_or(0);
+            ta.meets_segment(tb.corner(apex_b + 1), tb.corner(apex_b + 2))
+                || tb.meets_segment(ta.corner(apex_a + 1), ta.corner(apex_a + 2))
+        }
+        2 => {
+            let far_a = shared_a.iter().position(|s| !*s).unwrap_or(0);
+            let far_b = (0..3).find(|&k| !va.contains(&vb[k])).unwrap_or(0);
+            folded_onto(&ta, far_a, tb.corner(far_b))
+        }
+        _ => false,
+    }
+}
+
+/// For a face with corner `far` opposite to the edge it shares with a face whose third corner is `other`: whether they
+/// lie in one plane on the same side of that edge.
+fn folded_onto(face: &Flat, far: usize, other: DVec3) -> bool {
+    let (u, v, w) = (face.corner(far + 1), face.corner(far + 2), face.corner(far));
+    turn3(u, v, w, other) == 0.0
+        && same_sign(turn2(face.axis, u, v, w), turn2(face.axis, u, v, other))
+}
+
+/// Faces without a common vertex meet exactly if an edge of one meets the other.
+fn separate_faces_meet(a: &Flat, b: &Flat) -> bool {
+    if a.has_on_one_side(b) || b.has_on_one_side(a) {
+        return false;
+    }
+    (0..3).any(|k| a.meets_segment(b.corner(k), b.corner(k + 1)))
+        || (0..3).any(|k| b.meets_segment(a.corner(k), a.corner(k + 1)))
+}
+
+/// A face of non-zero area with an axis along which its projection keeps that.
+struct Flat {
+    corners: [DVec3; 3],
+    axis: usize,
+}
+
+impl Flat {
+    fn new(corners: [DVec3; 3], axis: usize) -> Self {
+        Self { corners, axis }
+    }
+
+    fn corner(&self, k: usize) -> DVec3 {
+        self.corners[k % 3]
+    }
+
+    fn side(&self, p: DVec3) -> f64 {
+        turn3(self.corners[0], self.corners[1], self.corners[2], p)
+    }
+
+    /// Whether all of `other` lies strictly on one side of this face's plane.
+    fn has_on_one_side(&self, other: &Flat) -> bool {
+        let first = self.side(other.corners[0]);
+        first != 0.0
+            && same_sign(first, self.side(other.corners[1]))
+            && same_sign(first, self.side(other.corners[2]))
+    }
+
+    /// Whether the closed segment has a point in the closed face.
+    fn meets_segment(&self, p: DVec3, q: DVec3) -> bool {
+        let (sp, sq) = (self.side(p), self.side(q));
+        if sp == 0.0 && sq == 0.0 {
+            return self.meets_segment_in_plane(p, q);
+        }
+        if same_sign(sp, sq) {
+            return false;
+        }
+        let turns = [0, 1, 2].map(|k| turn3(p, q, self.corner(k), self.corner(k + 1)));
+        turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)
+    }
+
+    /// Two closed convex sets in a plane are apart exactly if the line of an edge of one has the other strictly beyond
+    /// it: three edges of the face and the segment itself.
+    fn meets_segment_in_plane(&self, p: DVec3, q: DVec3) -> bool {
+        let turn = |a, b, c| turn2(self.axis, a, b, c);
+        let inner = turn(self.corners[0], self.corners[1], self.corners[2]);
+        let beyond = |k: usize, r: DVec3| {
+            let side = turn(self.corner(k), self.corner(k + 1), r);
+            side != 0.0 && !same_sign(side, inner)
+        };
+        if (0..3).any(|k| beyond(k, p) && beyond(k, q)) {
+            return false;
+        }
+        let first = turn(p, q, self.corners[0]);
+        first == 0.0 || !(1..3).all(|k| same_sign(first, turn(p, q, self.corners[k])))
+    }
+}
+
+fn same_sign(a: f64, b: f64) -> bool {
+    (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
+}
+
+/// An axis to drop so that the face keeps a non-zero area, preferring its largest projection; `None` for a face of
+/// exactly zero area.
+pub(crate) fn projection_axis(corners: &[DVec3; 3]) -> Option<usize> {
+    let [a, b, c] = *corners;
+    let best = (b - a).cross(c - a).abs().max_position();
+    [best, (best + 1) % 3, (best + 2) % 3]
+        .into_iter()
+        .find(|&axis| turn2(axis, a, b, c) != 0.0)
+}
+
+/// Sign of the turn `a, b, c` seen along `axis`.
+pub(crate) fn turn2(axis: usize, a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let drop = |p: DVec3| Coord { x: p[x], y: p[y] };
+    robust::orient2d(drop(a), drop(b), drop(c))
+}
+
+/// Positive if `d` lies behind the plane of `a, b, c` (which turn counter-clockwise as seen from the front).
+pub(crate) fn turn3(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
+    // Level and upright planes are common in printed bodies, and exact zeros are what the adaptive test is slowest at.
+    if ((a.cmpeq(b) & a.cmpeq(c)) & a.cmpeq(d)).any() {
+        return 0.0;
+    }
+    let coord = |p: DVec3| Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    };
+    robust::orient3d(coord(a), coord(b), coord(c), coord(d))
+}

@@ -1,0 +1,96 @@
+//! The closed surfaces a mesh consists of, and how they lie in one another.
+//!
+//! Takes a closed, consistently wound mesh without self-intersections; gives for each shell its volume and in how many
+//! others it lies, exactly (ray parity by signs of determinants, no tolerances).
+
+use crate::mesh::TriMesh;
+use crate::mesh::boxes::{Box3, BoxTree};
+use crate::mesh::intersect::{turn2, turn3};
+use crate::mesh::topology::face_components;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// One closed surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shell {
+    pub first_face: u32,
+    /// Cubic millimetres, negative for one that faces inwards (a cavity, or a part turned inside out).
+    pub volume: f64,
+    /// How often the other shells go round it: 0 in the open, 1 inside of a part, 0 inside of a part's cavity.
+    pub winding: i32,
+}
+
+impl Shell {
+    /// Whether material lies behind it and none in front of it: an outer surface in the open, or a cavity in a part.
+    pub fn is_sound(&self) -> bool {
+        (self.volume > 0.0 && self.winding == 0) || (self.volume < 0.0 && self.winding == 1)
+    }
+}
+
+/// The shells by rising first face.
+pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
+    let component = face_components(mesh);
+    let mut shells: Vec<Shell> = Vec::new();
+    for (face, &c) in component.iter().enumerate() {
+        if c as usize == shells.len() {
+            shells.push(Shell {
+                first_face: face as u32,
+                volume: 0.0,
+                winding: 0,
+            });
+        }
+        // Measured from the shell's own corner: a part far from the origin keeps its digits.
+        let origin = mesh.corners(shells[c as usize].first_face as usize)[0];
+        let [p, q, r] = mesh.corners(face).map(|v| v - origin);
+        shells[c as usize].volume += p.dot(q.cross(r)) / 6.0;
+    }
+    if shells.len() > 1 {
+        let boxes: Vec<Box3> = (0..mesh.faces.len())
+            .map(|f| Box3::of_face(mesh, f))
+            .collect();
+        let tree = BoxTree::new(&boxes);
+        shells.par_iter_mut().enumerate().for_each(|(own, shell)| {
+            let point = mesh.corners(shell.first_face as usize)[0];
+            shell.winding = winding(mesh, &tree, point, |face| component[face] != own as u32);
+        });
+    }
+    shells
+}
+
+/// How often the faces that `count` selects go round the point: the exits less the entries of its ray along +x.
+fn winding(mesh: &TriMesh, tree: &BoxTree, point: DVec3, count: impl Fn(usize) -> bool) -> i32 {
+    let ray = Box3 {
+        lo: point,
+        hi: DVec3::new(f64::INFINITY, point.y, point.z),
+    };
+    let mut total = 0;
+    tree.overlapping(&ray, |face| {
+        if count(face as usize) {
+            total += crossing(&mesh.corners(face as usize), point);
+        }
+        true
+    });
+    total
+}
+
+/// +1 if the ray along +x leaves through the face's back, -1 if it enters through its front, 0 if it misses.
+fn crossing(corners: &[DVec3; 3], point: DVec3) -> i32 {
+    // Half-open rules on z give an edge to one of its two faces only, so no ray slips through or counts twice.
+    let turns: i32 = (0..3)
+        .map(|k| {
+            let (u, v) = (corners[k], corners[(k + 1) % 3]);
+            let side = turn2(0, u, v, point);
+            let (rises, falls) = (
+                u.z <= point.z && point.z < v.z,
+                v.z <= point.z && point.z < u.z,
+            );
+            i32::from(rises && side > 0.0) - i32::from(falls && side < 0.0)
+        })
+        .sum();
+    let behind = turn3(corners[0], corners[1], corners[2], point);
+    match turns {
+        1 if behind > 0.0 => 1,
+        -1 if behind < 0.0 => -1,
+        _ => 0,
+    }
+}

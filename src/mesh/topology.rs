@@ -1,0 +1,198 @@
+//! Which faces and vertices of a mesh hang together.
+//!
+//! Takes any indexed mesh whose indices are in range; gives answers that depend on face order only (sorted arrays,
+//! no hash order). Knows nothing of positions: weld first if equal positions are to count as one vertex.
+
+use crate::mesh::TriMesh;
+use rayon::slice::ParallelSliceMut;
+
+/// One side of a face: the edge from corner `k` to corner `k + 1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct HalfEdge {
+    /// The smaller and the larger of its two vertex indices.
+    pub low: u32,
+    pub high: u32,
+    pub face: u32,
+    /// Corner of the face it starts at, 0 to 2.
+    pub corner: u8,
+    /// Whether it runs from `low` to `high`.
+    pub forward: bool,
+}
+
+/// All half-edges of a mesh, those of the same edge next to each other in face order.
+///
+/// Faces that repeat an index give half-edges too, except from a vertex to itself.
+pub struct Edges {
+    half: Vec<HalfEdge>,
+}
+
+impl Edges {
+    pub fn new(mesh: &TriMesh) -> Self {
+        let mut half = Vec::with_capacity(3 * mesh.faces.len());
+        for (face, v) in mesh.faces.iter().enumerate() {
+            for corner in 0..3 {
+                let (from, to) = (v[corner], v[(corner + 1) % 3]);
+                if from != to {
+                    half.push(HalfEdge {
+                        low: from.min(to),
+                        high: from.max(to),
+                        face: face as u32,
+                        corner: corner as u8,
+                        forward: from < to,
+                    });
+                }
+            }
+        }
+        half.par_sort_unstable();
+        Self { half }
+    }
+
+    /// The half-edges of each edge, edges by rising vertex indices.
+    pub fn iter(&self) -> impl Iterator<Item = &[HalfEdge]> {
+        self.half
+            .chunk_by(|a, b| (a.low, a.high) == (b.low, b.high))
+    }
+}
+
+/// For each face the number of its component, components being joined by shared edges (also edges of more than two
+/// faces) and numbered by their first face.
+pub fn face_components(mesh: &TriMesh) -> Vec<u32> {
+    face_components_of(&Edges::new(mesh), mesh.faces.len())
+}
+
+/// As [`face_components`], for edges already at hand.
+pub fn face_components_of(edges: &Edges, faces: usize) -> Vec<u32> {
+    let mut sets = DisjointSets::new(faces);
+    for edge in edges.iter() {
+        for pair in edge.windows(2) {
+            sets.join(pair[0].face, pair[1].face);
+        }
+    }
+    sets.numbers().1
+}
+
+/// The neighbour of each face over its edge `k` (from corner `k` to corner `k + 1`); `None` where the edge is open or
+/// has more than two faces. Winding plays no part.
+pub fn face_neighbours(mesh: &TriMesh) -> Vec<[Option<u32>; 3]> {
+    let mut neighbours = vec![[None; 3]; mesh.faces.len()];
+    for edge in Edges::new(mesh).iter() {
+        if let [a, b] = edge {
+            neighbours[a.face as usize][a.corner as usize] = Some(b.face);
+            neighbours[b.face as usize][b.corner as usize] = Some(a.face);
+        }
+    }
+    neighbours
+}
+
+/// Marks a vertex that no face uses in [`vertex_parts`].
+pub const NO_PART: u32 = u32::MAX;
+
+/// The number of parts joined by shared vertices, and for each vertex the part it is in: parts are numbered by their
+/// lowest vertex, vertices without a face have [`NO_PART`].
+pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<u32>) {
+    let mut sets = DisjointSets::new(mesh.vertices.len());
+    let mut used = vec![false; mesh.vertices.len()];
+    for &[a, b, c] in &mesh.faces {
+        sets.join(a, b);
+        sets.join(b, c);
+        for v in [a, b, c] {
+            used[v as usize] = true;
+        }
+    }
+    let mut number_of_root = vec![NO_PART; used.len()];
+    let mut parts = 0;
+    let part_of = (0..used.len())
+        .map(|v| {
+            if !used[v] {
+                return NO_PART;
+            }
+            let number = &mut number_of_root[sets.root(v as u32) as usize];
+            if *number == NO_PART {
+                *number = parts;
+                parts += 1;
+            }
+            *number
+        })
+        .collect();
+    (parts as usize, part_of)
+}
+
+/// Vertices at which faces meet without being joined by edges (two cones tip to tip), rising.
+pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<u32> {
+    let mut sets = DisjointSets::new(3 * mesh.faces.len());
+    let corner_at = |h: &HalfEdge, low: bool| {
+        let start = h.forward == low;
+        3 * h.face + (h.corner as u32 + u32::from(!start)) % 3
+    };
+    for edge in edges.iter() {
+        for pair in edge.windows(2) {
+            for low in [true, false] {
+                sets.join(corner_at(&pair[0], low), corner_at(&pair[1], low));
+            }
+        }
+    }
+    const NONE: u32 = u32::MAX;
+    let mut fan_of_vertex = vec![NONE; mesh.vertices.len()];
+    let mut bowties = Vec::new();
+    for (face, vertices) in mesh.faces.iter().enumerate() {
+        for (corner, &v) in vertices.iter().enumerate() {
+            // A face that repeats an index has two corners there; that is reported as such, not as a bowtie.
+            if vertices.iter().filter(|&&w| w == v).count() > 1 {
+                continue;
+            }
+            let fan = sets.root((3 * face + corner) as u32);
+            let seen = &mut fan_of_vertex[v as usize];
+            if *seen == NONE {
+                *seen = fan;
+            } else if *seen != fan {
+                bowties.push(v);
+            }
+        }
+    }
+    bowties.sort_unstable();
+    bowties.dedup();
+    bowties
+}
+
+/// Union-find; the root of a set is its smallest member.
+pub struct DisjointSets {
+    parent: Vec<u32>,
+}
+
+impl DisjointSets {
+    pub fn new(len: usize) -> Self {
+        Self {
+            parent: (0..len as u32).collect(),
+        }
+    }
+
+    pub fn root(&mut self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            let up = self.parent[self.parent[x as usize] as usize];
+            self.parent[x as usize] = up;
+            x = up;
+        }
+        x
+    }
+
+    pub fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+    }
+
+    /// The number of sets, and the number of the set of each member; sets are numbered by their smallest member.
+    pub fn numbers(&mut self) -> (usize, Vec<u32>) {
+        let mut numbers = vec![0; self.parent.len()];
+        let mut count = 0;
+        for x in 0..self.parent.len() {
+            let root = self.root(x as u32) as usize;
+            if root == x {
+                numbers[x] = count;
+                count += 1;
+            } else {
+                numbers[x] = numbers[root];
+            }
+        }
+        (count as usize, numbers)
+    }
+}

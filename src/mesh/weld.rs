@@ -1,0 +1,235 @@
+//! Joining vertices at the same place, and dropping what no longer forms a surface.
+//!
+//! Every function says what it changed; none changes the order of what it keeps.
+
+use crate::mesh::TriMesh;
+use glam::DVec3;
+use rayon::slice::ParallelSliceMut;
+use std::collections::HashMap;
+
+/// A mesh whose vertices were joined.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Welded {
+    pub mesh: TriMesh,
+    /// The new index of each old vertex.
+    pub vertex_of: Vec<u32>,
+    /// How many vertices went away.
+    pub merged: usize,
+}
+
+/// Joins vertices no further than `tolerance` millimetres from the first vertex of their cluster, which stays where it
+/// is. Tolerance 0 joins equal coordinates (and 0 with -0). Faces all stay, some perhaps with repeated indices.
+pub fn weld(mesh: &TriMesh, tolerance: f64) -> Welded {
+    let all = vec![true; mesh.vertices.len()];
+    weld_some(mesh, tolerance, &all)
+}
+
+/// As [`weld`], but vertices that are not `eligible` stay by themselves.
+pub fn weld_some(mesh: &TriMesh, tolerance: f64, eligible: &[bool]) -> Welded {
+    let leader = if tolerance > 0.0 {
+        near_leaders(&mesh.vertices, tolerance, eligible)
+    } else {
+        equal_leaders(&mesh.vertices, eligible)
+    };
+    let mut vertex_of = Vec::with_capacity(leader.len());
+    let mut vertices = Vec::new();
+    for (v, &first) in leader.iter().enumerate() {
+        if first as usize == v {
+            vertex_of.push(vertices.len() as u32);
+            vertices.push(mesh.vertices[v]);
+        } else {
+            vertex_of.push(vertex_of[first as usize]);
+        }
+    }
+    let faces = mesh
+        .faces
+        .iter()
+        .map(|f| f.map(|v| vertex_of[v as usize]))
+        .collect();
+    let merged = mesh.vertices.len() - vertices.len();
+    let mesh = TriMesh { vertices, faces };
+    Welded {
+        mesh,
+        vertex_of,
+        merged,
+    }
+}
+
+/// For each vertex the first eligible one with the same coordinates.
+fn equal_leaders(vertices: &[DVec3], eligible: &[bool]) -> Vec<u32> {
+    let key = |v: &DVec3| v.to_array().map(|x| (x + 0.0).to_bits());
+    let mut keyed: Vec<([u64; 3], u32)> = (0..vertices.len())
+        .filter(|&v| eligible[v])
+        .map(|v| (key(&vertices[v]), v as u32))
+        .collect();
+    keyed.par_sort_unstable();
+    let mut leader: Vec<u32> = (0..vertices.len() as u32).collect();
+    for same in keyed.chunk_by(|a, b| a.0 == b.0) {
+        for (_, v) in same {
+            leader[*v as usize] = same[0].1;
+        }
+    }
+    leader
+}
+
+/// For each eligible vertex the nearest cluster leader within the tolerance, or itself as a new leader.
+fn near_leaders(vertices: &[DVec3], tolerance: f64, eligible: &[bool]) -> Vec<u32> {
+    let cell = |p: DVec3| (p / tolerance).floor().to_array().map(|x| x as i64);
+    // Looked up only, never iterated: no hash order reaches the result.
+    let mut leaders_in: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    let mut leader: Vec<u32> = (0..vertices.len() as u32).collect();
+    for v in (0..vertices.len()).filter(|&v| eligible[v]) {
+        let p = vertices[v];
+        let home = cell(p);
+        let nearest = neighbour_cells(home)
+            .filter_map(|c| leaders_in.get(&c))
+            .flatten()
+            .map(|&l| (vertices[l as usize].distance(p), l))
+            .filter(|(d, _)| *d <= tolerance)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        match nearest {
+            Some((_, l)) => leader[v] = l,
+            None => leaders_in.entry(home).or_default().push(v as u32),
+        }
+    }
+    leader
+}
+
+fn neighbour_cells([x, y, z]: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
+    (0..27i64).map(move |k| {
+        [
+            x.saturating_add(k % 3 - 1),
+            y.saturating_add(k / 3 % 3 - 1),
+            z.saturating_add(k / 9 - 1),
+        ]
+    })
+}
+
+/// Drops faces that repeat an index; gives how many.
+pub fn drop_collapsed(mesh: &mut TriMesh) -> usize {
+    let before = mesh.faces.len();
+    mesh.faces.retain(|[a, b, c]| a != b && b != c && c != a);
+    before - mesh.faces.len()
+}
+
+/// Drops vertices that no face uses; gives how many.
+pub fn drop_unreferenced(mesh: &mut TriMesh) -> usize {
+    let mut used = vec![false; mesh.vertices.len()];
+    for v in mesh.faces.iter().flatten() {
+        used[*v as usize] = true;
+    }
+    let dropped = used.iter().filter(|u| !**u).count();
+    if dropped == 0 {
+        return 0;
+    }
+    let mut next = 0;
+    let new_index: Vec<u32> = used
+        .iter()
+        .map(|u| {
+            next += u32::from(*u);
+            next.saturating_sub(1)
+        })
+        .collect();
+    let mut keep = used.iter();
+    mesh.vertices.retain(|_| keep.next() == Some(&true));
+    for face in &mut mesh.faces {
+        *face = face.map(|v| new_index[v as usize]);
+    }
+    dropped
+}
+
+/// Drops every face that has the same three vertices as an earlier one, whichever way round; gives how many.
+pub fn drop_duplicates(mesh: &mut TriMesh) -> usize {
+    let groups = duplicate_groups(mesh);
+    let mut keep = vec![true; mesh.faces.len()];
+    for group in &groups {
+        for &face in &group[1..] {
+            keep[face as usize] = false;
+        }
+    }
+    retain_faces(mesh, &keep)
+}
+
+/// Keeps the faces marked true; gives how many went.
+pub fn retain_faces(mesh: &mut TriMesh, keep: &[bool]) -> usize {
+    let before = mesh.faces.len();
+    let mut marks = keep.iter();
+    mesh.faces.retain(|_| marks.next() == Some(&true));
+    before - mesh.faces.len()
+}
+
+/// Sets of two or more faces with the same three vertices, faces rising.
+pub fn duplicate_groups(mesh: &TriMesh) -> Vec<Vec<u32>> {
+    let mut keyed: Vec<([u32; 3], u32)> = mesh
+        .faces
+        .iter()
+        .enumerate()
+        .map(|(face, v)| {
+            let mut key = *v;
+            key.sort_unstable();
+            (key, face as u32)
+        })
+        .collect();
+    keyed.par_sort_unstable();
+    keyed
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|same| same.len() > 1)
+        .map(|same| same.iter().map(|s| s.1).collect())
+        .collect()
+}
+
+/// What rounding to the coordinates of printable files did to a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapped {
+    pub mesh: TriMesh,
+    /// Faces that lost an edge to the rounding and were dropped: their neighbours now share that edge.
+    pub collapsed: usize,
+    /// Faces dropped in pairs because both sides of a fold became the same triangle.
+    pub folded: usize,
+}
+
+/// Rounds coordinates to f32 (kept as f64), joins vertices that become equal and drops the faces that vanish with
+/// them. A closed mesh stays closed in the sense that each edge has as many forward as backward faces.
+pub fn snap_to_f32(mesh: &TriMesh) -> Snapped {
+    let mut mesh = weld(&rounded_to_f32(mesh), 0.0).mesh;
+    let collapsed = drop_collapsed(&mut mesh);
+    let folded = cancel_folds(&mut mesh);
+    drop_unreferenced(&mut mesh);
+    Snapped {
+        mesh,
+        collapsed,
+        folded,
+    }
+}
+
+pub(crate) fn rounded_to_f32(mesh: &TriMesh) -> TriMesh {
+    let vertices = mesh
+        .vertices
+        .iter()
+        .map(|v| v.as_vec3().as_dvec3())
+        .collect();
+    TriMesh {
+        vertices,
+        faces: mesh.faces.clone(),
+    }
+}
+
+/// Drops pairs of faces with the same vertices and opposite winding; gives the number of faces dropped.
+fn cancel_folds(mesh: &mut TriMesh) -> usize {
+    let mut keep = vec![true; mesh.faces.len()];
+    for group in duplicate_groups(mesh) {
+        let (even, odd): (Vec<u32>, Vec<u32>) = group
+            .iter()
+            .partition(|f| is_even(mesh.faces[**f as usize]));
+        for (a, b) in even.into_iter().zip(odd) {
+            keep[a as usize] = false;
+            keep[b as usize] = false;
+        }
+    }
+    retain_faces(mesh, &keep)
+}
+
+/// Whether the indices are a rotation of their rising order.
+fn is_even([a, b, c]: [u32; 3]) -> bool {
+    (a < b && b < c) || (b < c && c < a) || (c < a && a < b)
+}
