@@ -3,7 +3,7 @@
 //! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
-use crate::mesh::TriMesh;
+use crate::mesh::Solid;
 use crate::render::Likeness;
 use crate::view::View;
 use glam::{DMat4, DVec3};
@@ -33,7 +33,10 @@ pub struct Program {
 impl Default for Program {
     /// This one.
     fn default() -> Self {
-        Self { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() }
+        Self {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
     }
 }
 
@@ -41,7 +44,7 @@ impl Default for Program {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ViewReport {
     pub name: String,
-    /// Where the eye stands, millimetres.
+    /// Where the eye stands and what it looks at, millimetres.
     pub eye: [f64; 3],
     pub look_at: [f64; 3],
     pub models: Vec<ModelReport>,
@@ -93,8 +96,10 @@ pub struct SolidReport {
     pub vertices: usize,
     pub volume_mm3: f64,
     pub area_mm2: f64,
-    /// Connected parts.
+    /// Pieces that would come apart.
     pub parts: usize,
+    /// Hollows without a way out.
+    pub cavities: usize,
     pub size_mm: [f64; 3],
     pub checks: Vec<Check>,
 }
@@ -128,7 +133,14 @@ impl Report {
 impl ViewReport {
     /// What is known before anything is built.
     pub fn new(view: &View) -> Self {
-        let models = view.models.iter().map(|m| ModelReport { file: m.file.clone(), matrix: rows(m.matrix) }).collect();
+        let models = view
+            .models
+            .iter()
+            .map(|m| ModelReport {
+                file: m.file.clone(),
+                matrix: rows(m.matrix),
+            })
+            .collect();
         Self {
             name: view.name.clone(),
             eye: tidy(view.eye),
@@ -142,24 +154,35 @@ impl ViewReport {
 
     /// Adds what the view's picture showed.
     pub fn with_likeness(mut self, likeness: &Likeness) -> Self {
-        let Likeness { hit, mean_deg, median_deg, p90_deg, pixels } = *likeness;
+        let Likeness {
+            hit,
+            mean_deg,
+            median_deg,
+            p90_deg,
+            pixels,
+        } = *likeness;
         self.hit_share = Some(hit);
-        self.normal_error_deg = Some(NormalError { mean: mean_deg, median: median_deg, p90: p90_deg });
+        self.normal_error_deg = Some(NormalError {
+            mean: mean_deg,
+            median: median_deg,
+            p90: p90_deg,
+        });
         self.rays = Some(pixels);
         self
     }
 }
 
 impl SolidReport {
-    /// Counts and measures of a closed mesh with so many connected parts.
-    pub fn new(mesh: &TriMesh, parts: usize, checks: Vec<Check>) -> Self {
-        let (lo, hi) = mesh.bounds().unwrap_or_default();
+    /// Counts and measures of the forest, with the answers of further checks.
+    pub fn new(solid: &Solid, checks: Vec<Check>) -> Self {
+        let (lo, hi) = solid.bounds();
         Self {
-            triangles: mesh.faces.len(),
-            vertices: mesh.vertices.len(),
-            volume_mm3: mesh.volume(),
-            area_mm2: mesh.area(),
-            parts,
+            triangles: solid.mesh().faces.len(),
+            vertices: solid.mesh().vertices.len(),
+            volume_mm3: solid.volume_mm3(),
+            area_mm2: solid.area_mm2(),
+            parts: solid.parts(),
+            cavities: solid.cavities(),
             size_mm: tidy(hi - lo),
             checks,
         }

@@ -43,11 +43,18 @@ pub struct Pen {
 
 impl Pen {
     pub const fn new(ink: Ink, width: f64) -> Self {
-        Self { ink, width, dash: None }
+        Self {
+            ink,
+            width,
+            dash: None,
+        }
     }
 
     pub const fn dashed(self, dash: f64, gap: f64) -> Self {
-        Self { dash: Some([dash, gap]), ..self }
+        Self {
+            dash: Some([dash, gap]),
+            ..self
+        }
     }
 }
 
@@ -90,7 +97,10 @@ pub struct Drawing {
 
 impl Drawing {
     pub fn new(size: DVec2) -> Self {
-        Self { size, shapes: Vec::new() }
+        Self {
+            size,
+            shapes: Vec::new(),
+        }
     }
 
     pub fn polygon(&mut self, points: &[DVec2], fill: Option<Ink>, pen: Option<Pen>) {
@@ -114,11 +124,20 @@ impl Drawing {
             Step::Cubic(at(k, -r), at(r, -k), at(r, 0.0)),
             Step::Close,
         ];
-        self.shapes.push(Shape { steps, fill, pen, text: None });
+        self.shapes.push(Shape {
+            steps,
+            fill,
+            pen,
+            text: None,
+        });
     }
 
     pub fn rect(&mut self, lo: DVec2, hi: DVec2, fill: Option<Ink>, pen: Option<Pen>) {
-        self.polygon(&[lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)], fill, pen);
+        self.polygon(
+            &[lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)],
+            fill,
+            pen,
+        );
     }
 
     /// Sets one line of text on a baseline point.
@@ -135,20 +154,37 @@ impl Drawing {
         }
         if let Some(ink) = style.halo {
             let pen = Pen::new(ink, 0.22 * style.size);
-            self.shapes.push(Shape { steps: steps.clone(), fill: Some(ink), pen: Some(pen), text: None });
+            self.shapes.push(Shape {
+                steps: steps.clone(),
+                fill: Some(ink),
+                pen: Some(pen),
+                text: None,
+            });
         }
         let weight = style.face.stroke() * style.size;
         let pen = (weight > 0.0).then_some(Pen::new(style.ink, weight));
-        self.shapes.push(Shape { steps, fill: Some(style.ink), pen, text: Some(text.to_owned()) });
+        self.shapes.push(Shape {
+            steps,
+            fill: Some(style.ink),
+            pen,
+            text: Some(text.to_owned()),
+        });
     }
 
     fn path(&mut self, points: &[DVec2], close: bool, fill: Option<Ink>, pen: Option<Pen>) {
-        let Some((first, rest)) = points.split_first() else { return };
+        let Some((first, rest)) = points.split_first() else {
+            return;
+        };
         let mut steps = vec![Step::Move(*first)];
         steps.extend(rest.iter().map(|p| Step::Line(*p)));
         if close {
             steps.push(Step::Close);
         }
-        self.shapes.push(Shape { steps, fill, pen, text: None });
+        self.shapes.push(Shape {
+            steps,
+            fill,
+            pen,
+            text: None,
+        });
     }
 }

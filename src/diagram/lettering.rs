@@ -26,7 +26,13 @@ impl Face {
 
 /// Ubuntu Light, and Hack for the characters that it lacks. Both are compiled in: parsing cannot fail.
 static FONTS: LazyLock<Vec<FontRef<'static>>> = LazyLock::new(|| {
-    [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR].iter().filter_map(|d| FontRef::try_from_slice(d).ok()).collect()
+    [
+        epaint_default_fonts::UBUNTU_LIGHT,
+        epaint_default_fonts::HACK_REGULAR,
+    ]
+    .iter()
+    .filter_map(|d| FontRef::try_from_slice(d).ok())
+    .collect()
 });
 
 /// One letter: the font that has it, its glyph there, and the scale from font units to ems.
@@ -41,7 +47,9 @@ fn glyph(c: char) -> Option<(&'static FontRef<'static>, GlyphId, f64)> {
 fn set(text: &str, face: Face, mut visit: impl FnMut(&FontRef, GlyphId, f64, f64)) -> f64 {
     let mut x = 0.0;
     for c in text.chars().filter(|c| !c.is_control()) {
-        let Some((font, id, scale)) = glyph(c) else { continue };
+        let Some((font, id, scale)) = glyph(c) else {
+            continue;
+        };
         visit(font, id, scale, x);
         x += f64::from(font.h_advance_unscaled(id)) * scale + 0.6 * face.stroke();
     }
@@ -57,8 +65,12 @@ pub fn width(text: &str, size: f64, face: Face) -> f64 {
 pub fn outlines(text: &str, start: DVec2, size: f64, face: Face) -> Vec<Step> {
     let mut steps = Vec::new();
     set(text, face, |font, id, scale, x| {
-        let Some(outline) = font.outline(id) else { return };
-        let place = |p: Point| start + size * DVec2::new(x + f64::from(p.x) * scale, -f64::from(p.y) * scale);
+        let Some(outline) = font.outline(id) else {
+            return;
+        };
+        let place = |p: Point| {
+            start + size * DVec2::new(x + f64::from(p.x) * scale, -f64::from(p.y) * scale)
+        };
         let mut pen: Option<Point> = None;
         for curve in outline.curves {
             let (from, to) = ends(&curve);

@@ -5,11 +5,11 @@
 //! with their distance written beside them, and a small overview shows them to scale.
 
 pub mod drawing;
-pub mod lettering;
-pub mod raster;
 mod footer;
+pub mod lettering;
 mod map;
 mod page;
+pub mod raster;
 mod sight;
 mod svg;
 
@@ -52,7 +52,10 @@ struct Facts<'a> {
 
 impl Facts<'_> {
     fn pillars(&self) -> usize {
-        self.supports.iter().filter(|s| matches!(s.kind, SupportKind::Pillar { .. })).count()
+        self.supports
+            .iter()
+            .filter(|s| matches!(s.kind, SupportKind::Pillar { .. }))
+            .count()
     }
 }
 
@@ -60,12 +63,21 @@ impl Facts<'_> {
 pub fn plan(title: &str, views: &[View], supports: &[Support]) -> Plan {
     let sights: Vec<Sight> = views.iter().map(|v| Sight::new(v, supports)).collect();
     let owners = (0..supports.len()).map(|k| owner(&sights, k)).collect();
-    let facts = Facts { title, views, supports, sights, owners };
+    let facts = Facts {
+        title,
+        views,
+        supports,
+        sights,
+        owners,
+    };
     let page = Page::new(&facts);
     let mut drawing = Drawing::new(page.size());
     map::draw(&mut drawing, &page, &facts);
     footer::draw(&mut drawing, &page, &facts);
-    Plan { title: title.to_owned(), drawing }
+    Plan {
+        title: title.to_owned(),
+        drawing,
+    }
 }
 
 /// The view that sees the support `k` over the widest angle; the earlier one of equals.

@@ -46,7 +46,12 @@ impl Page {
     pub fn new(facts: &Facts) -> Self {
         let (centre, radius) = circle(facts.supports);
         let rows = facts.views.len() as f64;
-        Self { centre, radius, u: radius / 60.0, height: LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW) }
+        Self {
+            centre,
+            radius,
+            u: radius / 60.0,
+            height: LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW),
+        }
     }
 
     /// Millimetres.
@@ -78,23 +83,44 @@ impl Page {
     pub fn stand(&self, eye: DVec2) -> (DVec2, bool) {
         let d = eye - self.centre;
         let rim = RIM * self.radius;
-        if d.length() <= rim { (eye, false) } else { (self.centre + rim * d.normalize(), true) }
+        if d.length() <= rim {
+            (eye, false)
+        } else {
+            (self.centre + rim * d.normalize(), true)
+        }
     }
 
     /// Text of a size in layout units.
     pub fn style(&self, size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
-        TextStyle { size: size * self.u, ink, face, anchor, halo: None }
+        TextStyle {
+            size: size * self.u,
+            ink,
+            face,
+            anchor,
+            halo: None,
+        }
     }
 }
 
 /// Middle and radius of a circle around all outlines; the unit is arbitrary if there are none.
 fn circle(supports: &[Support]) -> (DVec2, f64) {
-    let points: Vec<DVec2> = supports.iter().flat_map(|s| outline(s).iter().copied()).filter(|p| p.is_finite()).collect();
+    let points: Vec<DVec2> = supports
+        .iter()
+        .flat_map(|s| outline(s).iter().copied())
+        .filter(|p| p.is_finite())
+        .collect();
     let lo = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let hi = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let centre = (lo + hi) / 2.0;
-    let radius = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
-    if radius > 0.0 { (centre, radius) } else { (DVec2::ZERO, 60.0) }
+    let radius = points
+        .iter()
+        .map(|p| p.distance(centre))
+        .fold(0.0, f64::max);
+    if radius > 0.0 {
+        (centre, radius)
+    } else {
+        (DVec2::ZERO, 60.0)
+    }
 }
 
 /// Outline of a support from above.
@@ -117,5 +143,9 @@ pub fn deep(rgb: [u8; 3], black: f64) -> Ink {
 
 /// A length for people: millimetres below a metre.
 pub fn length(mm: f64) -> String {
-    if mm < 1000.0 { format!("{mm:.0} mm") } else { format!("{:.2} m", mm / 1000.0) }
+    if mm < 1000.0 {
+        format!("{mm:.0} mm")
+    } else {
+        format!("{:.2} m", mm / 1000.0)
+    }
 }

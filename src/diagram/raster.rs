@@ -1,7 +1,10 @@
 //! Drawings as pixels (tiny-skia).
 
 use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
-use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash,
+    Transform,
+};
 
 /// Largest side of a picture in pixels: 8k by 8k needs 256 MB.
 const MAX_SIDE: u32 = 8192;
@@ -27,7 +30,8 @@ impl Drawing {
 
 /// A white picture; sides are clamped to 1..=8192.
 pub fn blank(width: u32, height: u32) -> Pixmap {
-    let mut pixmap = Pixmap::new(width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE)).expect("sides between 1 and 8192");
+    let mut pixmap = Pixmap::new(width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE))
+        .expect("sides between 1 and 8192");
     pixmap.fill(Color::WHITE);
     pixmap
 }
@@ -39,14 +43,24 @@ pub fn encode(pixmap: &Pixmap) -> Vec<u8> {
 
 fn paint(pixmap: &mut Pixmap, shape: &Shape, scale: f32) {
     // `None` for outlines with coordinates that are not finite: nothing to draw.
-    let Some(path) = path(&shape.steps) else { return };
+    let Some(path) = path(&shape.steps) else {
+        return;
+    };
     let transform = Transform::from_scale(scale, scale);
     if let Some(ink) = shape.fill {
         pixmap.fill_path(&path, &paint_of(ink), FillRule::Winding, transform, None);
     }
     if let Some(pen) = shape.pen {
-        let dash = pen.dash.and_then(|[dash, gap]| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
-        let stroke = Stroke { width: pen.width as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, dash, ..Stroke::default() };
+        let dash = pen
+            .dash
+            .and_then(|[dash, gap]| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
+        let stroke = Stroke {
+            width: pen.width as f32,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            dash,
+            ..Stroke::default()
+        };
         pixmap.stroke_path(&path, &paint_of(pen.ink), &stroke, transform, None);
     }
 }
@@ -66,7 +80,9 @@ fn path(steps: &[Step]) -> Option<Path> {
             Step::Move(p) => builder.move_to(p.x as f32, p.y as f32),
             Step::Line(p) => builder.line_to(p.x as f32, p.y as f32),
             Step::Quad(a, p) => builder.quad_to(a.x as f32, a.y as f32, p.x as f32, p.y as f32),
-            Step::Cubic(a, b, p) => builder.cubic_to(a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32),
+            Step::Cubic(a, b, p) => builder.cubic_to(
+                a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32,
+            ),
             Step::Close => builder.close(),
         }
     }

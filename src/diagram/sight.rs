@@ -46,11 +46,24 @@ impl Sight {
     /// Works out the sight of `view` on the pillars among `supports`.
     pub fn new(view: &View, supports: &[Support]) -> Self {
         let eye = view.eye.truncate();
-        let ahead = (view.look_at.truncate() - eye).try_normalize().unwrap_or(DVec2::X);
-        let pillars: Vec<Shadow> = supports.iter().enumerate().filter_map(|(k, s)| Shadow::new(k, s, eye, ahead)).collect();
+        let ahead = (view.look_at.truncate() - eye)
+            .try_normalize()
+            .unwrap_or(DVec2::X);
+        let pillars: Vec<Shadow> = supports
+            .iter()
+            .enumerate()
+            .filter_map(|(k, s)| Shadow::new(k, s, eye, ahead))
+            .collect();
         let spans = model_spans(view, eye, ahead);
-        let intervals = spans.into_iter().map(|span| runs(span, &pillars, eye, ahead)).collect();
-        Self { eye, ahead, intervals }
+        let intervals = spans
+            .into_iter()
+            .map(|span| runs(span, &pillars, eye, ahead))
+            .collect();
+        Self {
+            eye,
+            ahead,
+            intervals,
+        }
     }
 
     pub fn runs(&self) -> impl Iterator<Item = &Run> {
@@ -67,7 +80,10 @@ impl Sight {
 
     /// Angle in radians over which the eye sees the support `k`.
     pub fn angle_of(&self, k: usize) -> f64 {
-        self.runs().filter(|r| r.support == Some(k)).map(Run::angle).sum()
+        self.runs()
+            .filter(|r| r.support == Some(k))
+            .map(Run::angle)
+            .sum()
     }
 
     /// Width of all models together, radians.
@@ -78,7 +94,11 @@ impl Sight {
     /// Share of that width at which the eye meets a pillar; 1 if there is no width.
     pub fn coverage(&self) -> f64 {
         let width = self.width();
-        let met: f64 = self.runs().filter(|r| r.support.is_some()).map(Run::angle).sum();
+        let met: f64 = self
+            .runs()
+            .filter(|r| r.support.is_some())
+            .map(Run::angle)
+            .sum();
         if width > 0.0 { met / width } else { 1.0 }
     }
 
@@ -86,10 +106,18 @@ impl Sight {
     /// `None` for supports without a layer. With it the line it is measured from.
     pub fn constrained(&self, run: &Run, supports: &[Support]) -> Option<(Vec<DVec2>, Vec<DVec2>)> {
         let support = &supports[run.support?];
-        let (SupportKind::Pillar { axis, .. }, Some(layer)) = (&support.kind, support.layer) else { return None };
+        let (SupportKind::Pillar { axis, .. }, Some(layer)) = (&support.kind, support.layer) else {
+            return None;
+        };
         let limits = |angle: f64, hit: f64| self.limits(layer, *axis, angle, hit);
-        let hits = || run.hits.iter().filter(|(a, t)| limits(*a, *t).iter().all(|x| x.is_finite()));
-        let line = hits().map(|&(a, t)| self.point(a, limits(a, t)[1])).collect();
+        let hits = || {
+            run.hits
+                .iter()
+                .filter(|(a, t)| limits(*a, *t).iter().all(|x| x.is_finite()))
+        };
+        let line = hits()
+            .map(|&(a, t)| self.point(a, limits(a, t)[1]))
+            .collect();
         let front = hits().map(|&(a, t)| self.point(a, limits(a, t)[0]));
         let back = hits().rev().map(|&(a, t)| self.point(a, limits(a, t)[2]));
         Some((front.chain(back).collect(), line))
@@ -102,7 +130,11 @@ impl Sight {
             Datum::AxisPlane => {
                 let distance = self.eye.distance(axis);
                 let at = distance * distance / self.direction(angle).dot(axis - self.eye);
-                [at * (1.0 - layer.front / distance), at, at * (1.0 + layer.back / distance)]
+                [
+                    at * (1.0 - layer.front / distance),
+                    at,
+                    at * (1.0 + layer.back / distance),
+                ]
             }
         }
     }
@@ -121,14 +153,25 @@ struct Shadow<'a> {
 impl<'a> Shadow<'a> {
     /// `None` for supports that are no pillars and for a pillar around the eye.
     fn new(index: usize, support: &'a Support, eye: DVec2, ahead: DVec2) -> Option<Self> {
-        let SupportKind::Pillar { axis, profile, .. } = &support.kind else { return None };
+        let SupportKind::Pillar { axis, profile, .. } = &support.kind else {
+            return None;
+        };
         let centre = *axis - eye;
         let middle = ahead.angle_to(centre);
         // Relative to the axis, so that no pillar is torn apart at the back of the eye.
-        let corners: Vec<f64> = profile.iter().map(|p| middle + centre.angle_to(*p - eye)).collect();
+        let corners: Vec<f64> = profile
+            .iter()
+            .map(|p| middle + centre.angle_to(*p - eye))
+            .collect();
         let from = corners.iter().copied().fold(f64::INFINITY, f64::min);
         let to = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (to - from < PI).then_some(Self { index, profile, corners, from, to })
+        (to - from < PI).then_some(Self {
+            index,
+            profile,
+            corners,
+            from,
+            to,
+        })
     }
 
     fn covers(&self, angle: f64) -> bool {
@@ -137,14 +180,17 @@ impl<'a> Shadow<'a> {
 
     /// The directions of `list` that lie inside the interval `a..b`, turned by whole turns where needed.
     fn within(list: impl Iterator<Item = f64>, a: f64, b: f64) -> impl Iterator<Item = f64> {
-        list.map(move |x| a + (x - a).rem_euclid(TAU)).filter(move |x| *x < b)
+        list.map(move |x| a + (x - a).rem_euclid(TAU))
+            .filter(move |x| *x < b)
     }
 
     /// Distance of the first point of the profile on a ray.
     fn hit(&self, eye: DVec2, direction: DVec2) -> Option<f64> {
         let n = self.profile.len();
         let edges = (0..n).map(|i| (self.profile[i] - eye, self.profile[(i + 1) % n] - eye));
-        edges.filter_map(|(p, q)| edge_hit(p, q, direction)).min_by(f64::total_cmp)
+        edges
+            .filter_map(|(p, q)| edge_hit(p, q, direction))
+            .min_by(f64::total_cmp)
     }
 }
 
@@ -162,8 +208,15 @@ fn edge_hit(p: DVec2, q: DVec2, direction: DVec2) -> Option<f64> {
 fn model_spans(view: &View, eye: DVec2, ahead: DVec2) -> Vec<(f64, f64)> {
     let mut spans: Vec<(f64, f64)> = Vec::new();
     for model in &view.models {
-        let angles = model.mesh.vertices.iter().map(|v| ahead.angle_to(v.truncate() - eye)).filter(|a| a.is_finite());
-        let (lo, hi) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), a| (lo.min(a), hi.max(a)));
+        let angles = model
+            .mesh
+            .vertices
+            .iter()
+            .map(|v| ahead.angle_to(v.truncate() - eye))
+            .filter(|a| a.is_finite());
+        let (lo, hi) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), a| {
+            (lo.min(a), hi.max(a))
+        });
         if lo < hi {
             spans.push((lo, hi));
         }
@@ -181,7 +234,8 @@ fn model_spans(view: &View, eye: DVec2, ahead: DVec2) -> Vec<(f64, f64)> {
 
 /// Cuts an interval at the pillars' tangents and sees in each part which pillar is nearest.
 fn runs((a, b): (f64, f64), pillars: &[Shadow], eye: DVec2, ahead: DVec2) -> Vec<Run> {
-    let mut cuts: Vec<f64> = Shadow::within(pillars.iter().flat_map(|p| [p.from, p.to]), a, b).collect();
+    let mut cuts: Vec<f64> =
+        Shadow::within(pillars.iter().flat_map(|p| [p.from, p.to]), a, b).collect();
     cuts.extend([a, b]);
     cuts.sort_by(f64::total_cmp);
     let mut runs: Vec<Run> = Vec::new();
@@ -190,11 +244,17 @@ fn runs((a, b): (f64, f64), pillars: &[Shadow], eye: DVec2, ahead: DVec2) -> Vec
         let here: Vec<&Shadow> = pillars.iter().filter(|p| p.covers(middle)).collect();
         let direction = |angle: f64| DVec2::from_angle(angle).rotate(ahead);
         let first = |angle: f64| {
-            let hits = here.iter().filter_map(|p| p.hit(eye, direction(angle)).map(|t| (p.index, t)));
-            hits.min_by(|x, y| x.1.total_cmp(&y.1)).map_or((None, f64::INFINITY), |(k, t)| (Some(k), t))
+            let hits = here
+                .iter()
+                .filter_map(|p| p.hit(eye, direction(angle)).map(|t| (p.index, t)));
+            hits.min_by(|x, y| x.1.total_cmp(&y.1))
+                .map_or((None, f64::INFINITY), |(k, t)| (Some(k), t))
         };
         let nearest = first(middle).0;
-        let corners = here.iter().filter(|p| Some(p.index) == nearest).flat_map(|p| p.corners.iter().copied());
+        let corners = here
+            .iter()
+            .filter(|p| Some(p.index) == nearest)
+            .flat_map(|p| p.corners.iter().copied());
         let (from, to) = (cut[0] + NUDGE, cut[1] - NUDGE);
         let mut angles: Vec<f64> = Shadow::within(corners, from, to).collect();
         let steps = ((to - from) / ARC_STEP).ceil() as usize;
@@ -212,6 +272,9 @@ fn runs((a, b): (f64, f64), pillars: &[Shadow], eye: DVec2, ahead: DVec2) -> Vec
 fn push(runs: &mut Vec<Run>, support: Option<usize>, hit: (f64, f64)) {
     match runs.last_mut() {
         Some(last) if last.support == support => last.hits.push(hit),
-        _ => runs.push(Run { support, hits: vec![hit] }),
+        _ => runs.push(Run {
+            support,
+            hits: vec![hit],
+        }),
     }
 }

@@ -8,10 +8,14 @@ impl Drawing {
     /// The page as an SVG document. Letters are paths, each line of text labelled with what it says.
     pub fn svg(&self, title: &str) -> String {
         let (w, h) = (number(self.size.x), number(self.size.y));
-        let mut svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n");
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
+        );
         _ = writeln!(svg, "<title>{}</title>", escaped(title));
         svg.push_str("<g stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
-        self.shapes.iter().for_each(|shape| push_shape(&mut svg, shape));
+        self.shapes
+            .iter()
+            .for_each(|shape| push_shape(&mut svg, shape));
         svg.push_str("</g>\n</svg>\n");
         svg
     }
@@ -24,7 +28,12 @@ fn push_shape(svg: &mut String, shape: &Shape) {
         push_ink(svg, "stroke", Some(pen.ink));
         _ = write!(svg, " stroke-width=\"{}\"", number(pen.width));
         if let Some([dash, gap]) = pen.dash {
-            _ = write!(svg, " stroke-dasharray=\"{} {}\"", number(dash), number(gap));
+            _ = write!(
+                svg,
+                " stroke-dasharray=\"{} {}\"",
+                number(dash),
+                number(gap)
+            );
         }
     }
     if let Some(text) = &shape.text {
@@ -36,7 +45,11 @@ fn push_shape(svg: &mut String, shape: &Shape) {
 }
 
 fn push_ink(svg: &mut String, attribute: &str, ink: Option<Ink>) {
-    let Some(Ink { rgb: [r, g, b], alpha }) = ink else {
+    let Some(Ink {
+        rgb: [r, g, b],
+        alpha,
+    }) = ink
+    else {
         _ = write!(svg, " {attribute}=\"none\"");
         return;
     };
@@ -67,10 +80,21 @@ fn push_step(svg: &mut String, step: Step) {
 fn number(x: f64) -> String {
     let text = format!("{:.3}", if x.is_finite() { x } else { 0.0 });
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
 }
 
 fn escaped(text: &str) -> String {
-    let clean: String = text.chars().filter(|c| !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')).collect();
-    clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    let clean: String = text
+        .chars()
+        .filter(|c| !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}'))
+        .collect();
+    clean
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }

@@ -30,16 +30,35 @@ const CORNER_BYTES: usize = 24;
 ///
 /// Corners are not shared between faces, so that every viewer shades the facets flat.
 pub fn write_glb(parts: &[Part], cameras: &[Camera]) -> Vec<u8> {
-    let mut root = Root { asset: Asset { generator: Some(generator()), ..Asset::default() }, ..Root::default() };
+    let mut root = Root {
+        asset: Asset {
+            generator: Some(generator()),
+            ..Asset::default()
+        },
+        ..Root::default()
+    };
     let mut binary = Vec::new();
     // glTF forbids empty accessors: an empty part would be one.
     let filled = parts.iter().filter(|p| !p.solid.mesh().faces.is_empty());
-    let mut nodes: Vec<Index<Node>> = filled.map(|p| push_part(&mut root, &mut binary, p)).collect();
+    let mut nodes: Vec<Index<Node>> = filled
+        .map(|p| push_part(&mut root, &mut binary, p))
+        .collect();
     nodes.extend(cameras.iter().map(|c| push_camera(&mut root, c)));
     if !binary.is_empty() {
-        root.push(Buffer { byte_length: USize64::from(binary.len()), name: None, uri: None, extensions: None, extras: Default::default() });
+        root.push(Buffer {
+            byte_length: USize64::from(binary.len()),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: Default::default(),
+        });
     }
-    let scene = Scene { extensions: None, extras: Default::default(), name: Some("forest".into()), nodes };
+    let scene = Scene {
+        extensions: None,
+        extras: Default::default(),
+        name: Some("forest".into()),
+        nodes,
+    };
     root.scene = Some(root.push(scene));
     frame(serde_json::to_vec(&root).unwrap_or_default(), binary)
 }
@@ -81,9 +100,19 @@ fn push_part(root: &mut Root, binary: &mut Vec<u8>, part: &Part) -> Index<Node> 
         mode: Valid(Mode::Triangles),
         targets: None,
     };
-    let mesh = Mesh { extensions: None, extras: Default::default(), name: Some(part.name.clone()), primitives: vec![primitive], weights: None };
+    let mesh = Mesh {
+        extensions: None,
+        extras: Default::default(),
+        name: Some(part.name.clone()),
+        primitives: vec![primitive],
+        weights: None,
+    };
     let mesh = root.push(mesh);
-    root.push(Node { mesh: Some(mesh), name: Some(part.name.clone()), ..Node::default() })
+    root.push(Node {
+        mesh: Some(mesh),
+        name: Some(part.name.clone()),
+        ..Node::default()
+    })
 }
 
 /// Appends every face's corners; gives the smallest and largest position written.
@@ -93,19 +122,29 @@ fn push_corners(binary: &mut Vec<u8>, mesh: &TriMesh) -> ([f32; 3], [f32; 3]) {
     for face in 0..mesh.faces.len() {
         // glTF wants unit normals, also of the faces that have none.
         let normal = mesh.area_vector(face).try_normalize().unwrap_or(DVec3::Z);
-        let normal = DVec3::new(normal.x, normal.z, -normal.y).as_vec3().to_array();
+        let normal = DVec3::new(normal.x, normal.z, -normal.y)
+            .as_vec3()
+            .to_array();
         for corner in mesh.corners(face) {
             let position = metres(corner).as_vec3().to_array();
             for k in 0..3 {
                 (lo[k], hi[k]) = (lo[k].min(position[k]), hi[k].max(position[k]));
             }
-            position.iter().chain(&normal).for_each(|x| binary.extend_from_slice(&x.to_le_bytes()));
+            position
+                .iter()
+                .chain(&normal)
+                .for_each(|x| binary.extend_from_slice(&x.to_le_bytes()));
         }
     }
     (lo, hi)
 }
 
-fn accessor(view: Index<buffer::View>, offset: usize, count: usize, range: Option<([f32; 3], [f32; 3])>) -> Accessor {
+fn accessor(
+    view: Index<buffer::View>,
+    offset: usize,
+    count: usize,
+    range: Option<([f32; 3], [f32; 3])>,
+) -> Accessor {
     Accessor {
         buffer_view: Some(view),
         byte_offset: Some(USize64::from(offset)),
@@ -126,7 +165,11 @@ fn accessor(view: Index<buffer::View>, offset: usize, count: usize, range: Optio
 fn material(name: &str, colour: [u8; 3]) -> Material {
     let [r, g, b] = colour.map(|c| {
         let c = f32::from(c) / 255.0;
-        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        if c <= 0.04045 {
+            c / 12.92
+        } else {
+            ((c + 0.055) / 1.055).powf(2.4)
+        }
     });
     let pbr = PbrMetallicRoughness {
         base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
@@ -134,7 +177,11 @@ fn material(name: &str, colour: [u8; 3]) -> Material {
         roughness_factor: StrengthFactor(0.9),
         ..PbrMetallicRoughness::default()
     };
-    Material { name: Some(name.to_owned()), pbr_metallic_roughness: pbr, ..Material::default() }
+    Material {
+        name: Some(name.to_owned()),
+        pbr_metallic_roughness: pbr,
+        ..Material::default()
+    }
 }
 
 /// A glTF camera looks along its own -Z with +Y up.
@@ -172,7 +219,11 @@ fn push_camera(root: &mut Root, camera: &Camera) -> Index<Node> {
 /// The container: a 12-byte header, the JSON chunk padded with spaces, the binary chunk (left out if empty).
 fn frame(mut json: Vec<u8>, binary: Vec<u8>) -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
-    let binary_bytes = if binary.is_empty() { 0 } else { 8 + binary.len() };
+    let binary_bytes = if binary.is_empty() {
+        0
+    } else {
+        8 + binary.len()
+    };
     let total = 12 + 8 + json.len() + binary_bytes;
     let mut glb = Vec::with_capacity(total);
     glb.extend_from_slice(b"glTF");

@@ -28,7 +28,16 @@ pub fn write_stl(solid: &Solid, title: &str) -> Vec<u8> {
 fn header(title: &str) -> [u8; HEADER_BYTES] {
     let text = format!("pillarforest, millimetres, z up: {title}");
     let mut header = [b' '; HEADER_BYTES];
-    let printable = text.chars().map(|c| if c.is_ascii_graphic() || c == ' ' { c as u8 } else { b'?' });
-    header.iter_mut().zip(printable).for_each(|(slot, byte)| *slot = byte);
+    let printable = text.chars().map(|c| {
+        if c.is_ascii_graphic() || c == ' ' {
+            c as u8
+        } else {
+            b'?'
+        }
+    });
+    header
+        .iter_mut()
+        .zip(printable)
+        .for_each(|(slot, byte)| *slot = byte);
     header
 }

@@ -45,7 +45,14 @@ impl ZipTime {
         let seconds = seconds.clamp(FIRST, LAST);
         let (days, rest) = (seconds / 86_400, seconds % 86_400);
         let (year, month, day) = civil_from_days(days);
-        Self { year, month, day, hour: (rest / 3600) as u8, minute: (rest / 60 % 60) as u8, second: (rest % 60) as u8 }
+        Self {
+            year,
+            month,
+            day,
+            hour: (rest / 3600) as u8,
+            minute: (rest / 60 % 60) as u8,
+            second: (rest % 60) as u8,
+        }
     }
 
     fn date(self) -> String {
@@ -53,7 +60,15 @@ impl ZipTime {
     }
 
     fn zip(self) -> DateTime {
-        DateTime::from_date_and_time(self.year, self.month, self.day, self.hour, self.minute, self.second).unwrap_or_default()
+        DateTime::from_date_and_time(
+            self.year,
+            self.month,
+            self.day,
+            self.hour,
+            self.minute,
+            self.second,
+        )
+        .unwrap_or_default()
     }
 }
 
@@ -61,11 +76,16 @@ impl ZipTime {
 fn civil_from_days(days: u64) -> (u16, u8, u8) {
     let z = days + 719_468;
     let (era, day_of_era) = (z / 146_097, z % 146_097);
-    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let year_of_era =
+        (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
     let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
     let shifted_month = (5 * day_of_year + 2) / 153;
     let day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
+    let month = if shifted_month < 10 {
+        shifted_month + 3
+    } else {
+        shifted_month - 9
+    };
     let year = year_of_era + era * 400 + u64::from(month <= 2);
     (year as u16, month as u8, day as u8)
 }
@@ -78,7 +98,10 @@ pub fn write_3mf(parts: &[Part], meta: &Metadata, thumbnail_png: Option<&[u8]>) 
     let model = model_xml(parts, meta);
     let thumbnail = thumbnail_png.is_some();
     let mut entries = vec![
-        ("[Content_Types].xml", content_types_xml(thumbnail).into_bytes()),
+        (
+            "[Content_Types].xml",
+            content_types_xml(thumbnail).into_bytes(),
+        ),
         ("_rels/.rels", relationships_xml(thumbnail).into_bytes()),
         ("3D/3dmodel.model", model.into_bytes()),
     ];
@@ -95,15 +118,26 @@ fn pack(entries: &[(&str, Vec<u8>)], created: Option<ZipTime>) -> zip::result::Z
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in entries {
         let stored = name.ends_with(".png");
-        let options = if stored { options.compression_method(CompressionMethod::Stored) } else { options };
-        zip.start_file(*name, options.large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2))?;
+        let options = if stored {
+            options.compression_method(CompressionMethod::Stored)
+        } else {
+            options
+        };
+        zip.start_file(
+            *name,
+            options.large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2),
+        )?;
         zip.write_all(bytes)?;
     }
     Ok(zip.finish()?.into_inner())
 }
 
 fn content_types_xml(thumbnail: bool) -> String {
-    let png = if thumbnail { "\n <Default Extension=\"png\" ContentType=\"image/png\"/>" } else { "" };
+    let png = if thumbnail {
+        "\n <Default Extension=\"png\" ContentType=\"image/png\"/>"
+    } else {
+        ""
+    };
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
@@ -131,7 +165,10 @@ fn relationships_xml(thumbnail: bool) -> String {
 
 fn model_xml(parts: &[Part], meta: &Metadata) -> String {
     // About 40 bytes a vertex and 45 a triangle; a guess that only saves copying.
-    let size: usize = parts.iter().map(|p| 40 * p.solid.mesh().vertices.len() + 45 * p.solid.mesh().faces.len()).sum();
+    let size: usize = parts
+        .iter()
+        .map(|p| 40 * p.solid.mesh().vertices.len() + 45 * p.solid.mesh().faces.len())
+        .sum();
     let mut xml = String::with_capacity(size + 4096);
     xml.push_str(
         r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -165,11 +202,22 @@ fn push_metadata(xml: &mut String, meta: &Metadata) {
         ("CreationDate", &date),
     ];
     for (name, value) in known.into_iter().filter(|(_, value)| !value.is_empty()) {
-        _ = writeln!(xml, " <metadata name=\"{name}\">{}</metadata>", escaped(value));
+        _ = writeln!(
+            xml,
+            " <metadata name=\"{name}\">{}</metadata>",
+            escaped(value)
+        );
     }
     for (name, value) in &meta.own {
-        let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-')).collect();
-        _ = writeln!(xml, " <metadata name=\"pillarforest:{name}\">{}</metadata>", escaped(value));
+        let name: String = name
+            .chars()
+            .filter(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'))
+            .collect();
+        _ = writeln!(
+            xml,
+            " <metadata name=\"pillarforest:{name}\">{}</metadata>",
+            escaped(value)
+        );
     }
 }
 
@@ -182,13 +230,21 @@ fn push_colours(xml: &mut String, parts: &[Part]) -> Vec<[u8; 3]> {
         }
     }
     for (k, [r, g, b]) in colours.iter().enumerate() {
-        _ = writeln!(xml, "  <m:colorgroup id=\"{}\"><m:color color=\"#{r:02X}{g:02X}{b:02X}FF\"/></m:colorgroup>", k + 1);
+        _ = writeln!(
+            xml,
+            "  <m:colorgroup id=\"{}\"><m:color color=\"#{r:02X}{g:02X}{b:02X}FF\"/></m:colorgroup>",
+            k + 1
+        );
     }
     colours
 }
 
 fn push_object(xml: &mut String, id: usize, pid: usize, part: &Part) {
-    _ = writeln!(xml, "  <object id=\"{id}\" type=\"model\" name=\"{}\" pid=\"{pid}\" pindex=\"0\">", escaped(&part.name));
+    _ = writeln!(
+        xml,
+        "  <object id=\"{id}\" type=\"model\" name=\"{}\" pid=\"{pid}\" pindex=\"0\">",
+        escaped(&part.name)
+    );
     xml.push_str("   <mesh>\n    <vertices>\n");
     let mesh: &TriMesh = part.solid.mesh();
     for v in &mesh.vertices {

@@ -22,15 +22,26 @@ pub struct Lights {
 
 impl Lights {
     pub fn of(plane: &ImagePlane) -> Self {
-        let ImagePlane { forward: f, right: r, up: u, .. } = *plane;
+        let ImagePlane {
+            forward: f,
+            right: r,
+            up: u,
+            ..
+        } = *plane;
         let key = (-0.6 * f - 0.5 * r + 0.7 * u).normalize();
         let fill = (-0.6 * f + 0.7 * r + 0.4 * u).normalize();
-        Self { lights: [(key, 0.68), (fill, 0.16), (-f, 0.12)] }
+        Self {
+            lights: [(key, 0.68), (fill, 0.16), (-f, 0.12)],
+        }
     }
 
     /// Lambertian shade of a facet.
     pub fn shade(&self, normal: DVec3, colour: [u8; 3]) -> Rgb {
-        let lit: f64 = self.lights.iter().map(|(l, strength)| strength * normal.dot(*l).max(0.0)).sum();
+        let lit: f64 = self
+            .lights
+            .iter()
+            .map(|(l, strength)| strength * normal.dot(*l).max(0.0))
+            .sum();
         scaled(colour, 0.14 + lit)
     }
 }
@@ -42,20 +53,41 @@ pub fn scaled(colour: [u8; 3], light: f64) -> Rgb {
 
 /// Casts four rays through every pixel that differs from a neighbour, and takes their mean. `N` pictures at once;
 /// `cast` gives all of them at a place in pixels from the top left corner.
-pub fn smoothed<const N: usize>(centres: &[[Rgb; N]], size: usize, cast: impl Fn(f64, f64) -> [Rgb; N] + Sync) -> Vec<[Rgb; N]> {
+pub fn smoothed<const N: usize>(
+    centres: &[[Rgb; N]],
+    size: usize,
+    cast: impl Fn(f64, f64) -> [Rgb; N] + Sync,
+) -> Vec<[Rgb; N]> {
     let rough = |k: usize| {
         let (x, y) = (k % size, k / size);
-        let around = [(x > 0).then(|| k - 1), (x + 1 < size).then(|| k + 1), (y > 0).then(|| k - size), (y + 1 < size).then(|| k + size)];
-        around.into_iter().flatten().any(|other| differ(&centres[k], &centres[other]))
+        let around = [
+            (x > 0).then(|| k - 1),
+            (x + 1 < size).then(|| k + 1),
+            (y > 0).then(|| k - size),
+            (y + 1 < size).then(|| k + size),
+        ];
+        around
+            .into_iter()
+            .flatten()
+            .any(|other| differ(&centres[k], &centres[other]))
     };
     let mean = |k: usize| {
         let (x, y) = ((k % size) as f64, (k / size) as f64);
-        let four = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)].map(|(dx, dy)| cast(x + dx, y + dy));
-        std::array::from_fn(|p| std::array::from_fn(|c| four.iter().map(|f| f[p][c]).sum::<f32>() / 4.0))
+        let four = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
+            .map(|(dx, dy)| cast(x + dx, y + dy));
+        std::array::from_fn(|p| {
+            std::array::from_fn(|c| four.iter().map(|f| f[p][c]).sum::<f32>() / 4.0)
+        })
     };
-    (0..centres.len()).into_par_iter().map(|k| if rough(k) { mean(k) } else { centres[k] }).collect()
+    (0..centres.len())
+        .into_par_iter()
+        .map(|k| if rough(k) { mean(k) } else { centres[k] })
+        .collect()
 }
 
 fn differ<const N: usize>(a: &[Rgb; N], b: &[Rgb; N]) -> bool {
-    a.as_flattened().iter().zip(b.as_flattened()).any(|(x, y)| (x - y).abs() > JUMP)
+    a.as_flattened()
+        .iter()
+        .zip(b.as_flattened())
+        .any(|(x, y)| (x - y).abs() > JUMP)
 }

@@ -1,1 +1,7 @@
 //! Integration tests, one module a subject.
+
+mod diagram;
+mod formats;
+mod golden;
+mod render;
+mod shapes;
