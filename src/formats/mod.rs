@@ -11,3 +11,27 @@ mod xml_3mf;
 
 pub use inspect::{Inspection, inspect};
 pub use read::{load_model, read_mesh};
+//! File formats.
+//!
+//! Writers take solids and give bytes; they touch no file and no clock, and the same input gives the same bytes.
+//! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
+
+mod glb;
+mod stl;
+mod threemf;
+
+pub use glb::{Camera, write_glb};
+pub use stl::write_stl;
+pub use threemf::{Metadata, ZipTime, write_3mf};
+
+use crate::mesh::Solid;
+
+/// A solid that becomes an object of its own in a file.
+#[derive(Clone, Debug)]
+pub struct Part<'a> {
+    /// Shown by slicers and viewers; any text.
+    pub name: String,
+    /// sRGB.
+    pub colour: [u8; 3],
+    pub solid: &'a Solid,
+}

@@ -2,3 +2,8 @@
 
 mod hostile;
 mod meshes;
+mod diagram;
+mod formats;
+mod golden;
+mod render;
+mod shapes;

@@ -1,0 +1,190 @@
+//! A display list: what is drawn, without saying on what. PNG and SVG are made from the same list.
+//!
+//! Page coordinates: x right, y down, in the drawing's own unit (millimetres for the plan, pixels for pictures).
+
+use crate::diagram::lettering::{self, Face};
+use glam::DVec2;
+
+/// A step of an outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    Move(DVec2),
+    Line(DVec2),
+    Quad(DVec2, DVec2),
+    Cubic(DVec2, DVec2, DVec2),
+    Close,
+}
+
+/// A colour with its opacity, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ink {
+    pub rgb: [u8; 3],
+    pub alpha: f64,
+}
+
+impl Ink {
+    pub const fn new(rgb: [u8; 3]) -> Self {
+        Self { rgb, alpha: 1.0 }
+    }
+
+    pub const fn fade(self, alpha: f64) -> Self {
+        Self { alpha, ..self }
+    }
+}
+
+/// A line of round joins and ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pen {
+    pub ink: Ink,
+    pub width: f64,
+    /// Lengths of dash and gap.
+    pub dash: Option<[f64; 2]>,
+}
+
+impl Pen {
+    pub const fn new(ink: Ink, width: f64) -> Self {
+        Self {
+            ink,
+            width,
+            dash: None,
+        }
+    }
+
+    pub const fn dashed(self, dash: f64, gap: f64) -> Self {
+        Self {
+            dash: Some([dash, gap]),
+            ..self
+        }
+    }
+}
+
+/// An outline, filled (even-odd is never needed: non-zero) and then stroked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    pub steps: Vec<Step>,
+    pub fill: Option<Ink>,
+    pub pen: Option<Pen>,
+    /// What the shape says, for screen readers and for searching in the SVG.
+    pub text: Option<String>,
+}
+
+/// Where a text's anchor point lies on its baseline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a text is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextStyle {
+    /// Height of the em square.
+    pub size: f64,
+    pub ink: Ink,
+    pub face: Face,
+    pub anchor: Anchor,
+    /// Colour of a border that lifts the text off what lies beneath.
+    pub halo: Option<Ink>,
+}
+
+/// The display list of one page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    pub size: DVec2,
+    pub shapes: Vec<Shape>,
+}
+
+impl Drawing {
+    pub fn new(size: DVec2) -> Self {
+        Self {
+            size,
+            shapes: Vec::new(),
+        }
+    }
+
+    pub fn polygon(&mut self, points: &[DVec2], fill: Option<Ink>, pen: Option<Pen>) {
+        self.path(points, true, fill, pen);
+    }
+
+    pub fn polyline(&mut self, points: &[DVec2], pen: Pen) {
+        self.path(points, false, None, Some(pen));
+    }
+
+    pub fn circle(&mut self, centre: DVec2, radius: f64, fill: Option<Ink>, pen: Option<Pen>) {
+        // Four cubic arcs: 0.03 % off a true circle.
+        let k = 0.552_284_75 * radius;
+        let r = radius;
+        let at = |x: f64, y: f64| centre + DVec2::new(x, y);
+        let steps = vec![
+            Step::Move(at(r, 0.0)),
+            Step::Cubic(at(r, k), at(k, r), at(0.0, r)),
+            Step::Cubic(at(-k, r), at(-r, k), at(-r, 0.0)),
+            Step::Cubic(at(-r, -k), at(-k, -r), at(0.0, -r)),
+            Step::Cubic(at(k, -r), at(r, -k), at(r, 0.0)),
+            Step::Close,
+        ];
+        self.shapes.push(Shape {
+            steps,
+            fill,
+            pen,
+            text: None,
+        });
+    }
+
+    pub fn rect(&mut self, lo: DVec2, hi: DVec2, fill: Option<Ink>, pen: Option<Pen>) {
+        self.polygon(
+            &[lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)],
+            fill,
+            pen,
+        );
+    }
+
+    /// Sets one line of text on a baseline point.
+    pub fn text(&mut self, at: DVec2, text: &str, style: TextStyle) {
+        let width = lettering::width(text, style.size, style.face);
+        let start = match style.anchor {
+            Anchor::Start => at,
+            Anchor::Middle => at - DVec2::new(width / 2.0, 0.0),
+            Anchor::End => at - DVec2::new(width, 0.0),
+        };
+        let steps = lettering::outlines(text, start, style.size, style.face);
+        if steps.is_empty() {
+            return;
+        }
+        if let Some(ink) = style.halo {
+            let pen = Pen::new(ink, 0.22 * style.size);
+            self.shapes.push(Shape {
+                steps: steps.clone(),
+                fill: Some(ink),
+                pen: Some(pen),
+                text: None,
+            });
+        }
+        let weight = style.face.stroke() * style.size;
+        let pen = (weight > 0.0).then_some(Pen::new(style.ink, weight));
+        self.shapes.push(Shape {
+            steps,
+            fill: Some(style.ink),
+            pen,
+            text: Some(text.to_owned()),
+        });
+    }
+
+    fn path(&mut self, points: &[DVec2], close: bool, fill: Option<Ink>, pen: Option<Pen>) {
+        let Some((first, rest)) = points.split_first() else {
+            return;
+        };
+        let mut steps = vec![Step::Move(*first)];
+        steps.extend(rest.iter().map(|p| Step::Line(*p)));
+        if close {
+            steps.push(Step::Close);
+        }
+        self.shapes.push(Shape {
+            steps,
+            fill,
+            pen,
+            text: None,
+        });
+    }
+}

@@ -1,0 +1,257 @@
+//! The plan's lower part: table of views, overview to scale, key, scale bar.
+
+use crate::diagram::Facts;
+use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::{Face, width};
+use crate::diagram::map::eye_symbol;
+use crate::diagram::page::{
+    BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale,
+};
+use crate::support::SupportKind;
+use glam::DVec2;
+
+/// Columns of the table, layout units.
+const NAME: f64 = 19.0;
+const EYE: f64 = 58.0;
+/// Right edges.
+const PILLARS: f64 = 106.0;
+const ANGLE: f64 = 122.0;
+const COVERED: f64 = 141.0;
+/// The overview's box.
+const BOX: (f64, f64) = (150.0, 198.0);
+
+pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+    drawing.polyline(
+        &[page.at(12.0, TABLE - 9.0), page.at(198.0, TABLE - 9.0)],
+        Pen::new(HAIR, 0.25 * page.u),
+    );
+    table(drawing, page, facts);
+    overview(drawing, page, facts);
+    key(drawing, page);
+    scale_bar(drawing, page);
+}
+
+fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+    let head = page.style(2.7, Face::Light, QUIET, Anchor::Start);
+    let right = |style| TextStyle {
+        anchor: Anchor::End,
+        ..style
+    };
+    let y = TABLE - 3.5;
+    drawing.text(page.at(NAME, y), "view", head);
+    drawing.text(page.at(EYE, y), "eye x, y, z in mm", head);
+    drawing.text(page.at(PILLARS, y), "pillars", right(head));
+    drawing.text(page.at(ANGLE, y), "width", right(head));
+    drawing.text(page.at(COVERED, y), "covered", right(head));
+    for (k, (view, sight)) in facts.views.iter().zip(&facts.sights).enumerate() {
+        let y = TABLE + ROW * k as f64;
+        let seen = (0..facts.supports.len())
+            .filter(|s| sight.angle_of(*s) > 0.0)
+            .count();
+        eye_symbol(drawing, page.at(14.6, y + 1.0), 2.6 * page.u, view.colour);
+        let body = page.style(3.3, Face::Light, TEXT, Anchor::Start);
+        let name = TextStyle {
+            face: Face::Regular,
+            ..body
+        };
+        drawing.text(
+            page.at(NAME, y + 2.2),
+            &shortened(&view.name, 36.0 * page.u, name.size),
+            name,
+        );
+        let eye = format!(
+            "{}, {}, {}",
+            plain(view.eye.x),
+            plain(view.eye.y),
+            plain(view.eye.z)
+        );
+        drawing.text(page.at(EYE, y + 2.2), &eye, body);
+        drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));
+        // Rounded down: a gap, however thin, never reads as 100 %.
+        let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
+        drawing.text(
+            page.at(ANGLE, y + 2.2),
+            &format!("{:.1}°", sight.width().to_degrees()),
+            right(body),
+        );
+        drawing.text(
+            page.at(COVERED, y + 2.2),
+            &format!("{covered} %"),
+            right(body),
+        );
+    }
+}
+
+/// One decimal, and none for whole numbers; never -0.
+fn plain(x: f64) -> String {
+    format!("{}", (10.0 * x).round() / 10.0 + 0.0).replace('-', "\u{2212}")
+}
+
+/// A name cut to a width, with an ellipsis.
+fn shortened(name: &str, most: f64, size: f64) -> String {
+    if width(name, size, Face::Regular) <= most {
+        return name.to_owned();
+    }
+    let mut text = String::new();
+    for c in name.chars() {
+        if width(&format!("{text}{c}…"), size, Face::Regular) > most {
+            break;
+        }
+        text.push(c);
+    }
+    text + "…"
+}
+
+/// Where the eyes really are; only if the map could not show it.
+fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+    if !facts.views.iter().any(|v| page.stand(v.eye.truncate()).1) {
+        return;
+    }
+    let (lo, hi) = (page.at(BOX.0, TABLE - 4.0), page.at(BOX.1, TABLE + 44.0));
+    let eyes = || facts.views.iter().map(|v| v.eye.truncate());
+    let least = eyes().fold(page.centre - page.radius, DVec2::min);
+    let most = eyes().fold(page.centre + page.radius, DVec2::max);
+    let scale = 0.86 * ((hi - lo) / (most - least)).min_element();
+    let (middle, centre) = ((lo + hi) / 2.0, (least + most) / 2.0);
+    let place = |p: DVec2| middle + scale * DVec2::new(p.x - centre.x, centre.y - p.y);
+    for support in facts
+        .supports
+        .iter()
+        .filter(|s| matches!(s.kind, SupportKind::Base { .. }))
+    {
+        let points: Vec<DVec2> = outline(support).iter().map(|p| place(*p)).collect();
+        drawing.polygon(&points, Some(BASE), Some(Pen::new(HAIR, 0.2 * page.u)));
+    }
+    for (sight, view) in facts.sights.iter().zip(facts.views) {
+        for runs in &sight.intervals {
+            let hits = runs.iter().flat_map(|r| r.hits.iter());
+            let free = sight.eye.distance(page.centre) + page.radius;
+            let mut points: Vec<DVec2> = hits
+                .map(|&(a, t)| place(sight.point(a, t.min(free))))
+                .collect();
+            points.push(place(sight.eye));
+            drawing.polygon(&points, Some(Ink::new(view.colour).fade(0.3)), None);
+        }
+    }
+    for (support, owner) in facts.supports.iter().zip(&facts.owners) {
+        if let SupportKind::Pillar { profile, .. } = &support.kind {
+            let ink = owner.map_or(QUIET, |v| deep(facts.views[v].colour, 0.15));
+            let points: Vec<DVec2> = profile.iter().map(|p| place(*p)).collect();
+            drawing.polygon(&points, Some(ink), None);
+        }
+    }
+    facts
+        .views
+        .iter()
+        .for_each(|v| eye_symbol(drawing, place(v.eye.truncate()), 2.3 * page.u, v.colour));
+    let text = format!("overview, 1 : {:.1}", 1.0 / scale);
+    drawing.text(
+        DVec2::new(middle.x, hi.y + 4.0 * page.u),
+        &text,
+        page.style(2.7, Face::Light, QUIET, Anchor::Middle),
+    );
+}
+
+fn key(drawing: &mut Drawing, page: &Page) {
+    let y = page.bottom() - 25.0;
+    let style = page.style(3.0, Face::Light, TEXT, Anchor::Start);
+    let grey = [0x8A, 0x8F, 0x94];
+    let swatch = |x: f64| (page.at(x, y - 3.0), page.at(x + 6.0, y + 0.6));
+    let (lo, hi) = swatch(12.0);
+    drawing.rect(
+        lo,
+        hi,
+        Some(Ink::new(grey).fade(0.3)),
+        Some(Pen::new(Ink::new(grey).fade(0.8), 0.2 * page.u)),
+    );
+    drawing.text(page.at(20.0, y), "visible range", style);
+    drawing.circle(
+        page.at(46.0, y - 1.2),
+        2.0 * page.u,
+        Some(pale(grey, 0.3)),
+        Some(Pen::new(deep(grey, 0.35), 0.25 * page.u)),
+    );
+    drawing.text(page.at(49.6, y), "pillar in its view's colour", style);
+    drawing.circle(
+        page.at(90.0, y - 1.2),
+        2.0 * page.u,
+        Some(FREE),
+        Some(Pen::new(QUIET, 0.25 * page.u)),
+    );
+    drawing.text(page.at(93.6, y), "unseen", style);
+    let (lo, hi) = swatch(107.0);
+    drawing.rect(
+        lo,
+        hi,
+        Some(RED.fade(0.16)),
+        Some(Pen::new(RED.fade(0.7), 0.12 * page.u)),
+    );
+    let middle = (lo.y * 0.35) + hi.y * 0.65;
+    drawing.polyline(
+        &[DVec2::new(lo.x, middle), DVec2::new(hi.x, middle)],
+        Pen::new(RED, 0.55 * page.u),
+    );
+    drawing.text(page.at(115.0, y), "relief, front to back", style);
+}
+
+/// A bar of a round length near half the forest's radius, with its tenths or fifths.
+fn scale_bar(drawing: &mut Drawing, page: &Page) {
+    let y = page.bottom() - 13.0;
+    let rough = 0.7 * page.radius;
+    let power = 10f64.powf(rough.log10().floor());
+    let (step, parts) = [(5.0, 5), (2.0, 4), (1.0, 5)]
+        .into_iter()
+        .find(|(s, _)| s * power <= rough)
+        .unwrap_or((1.0, 5));
+    let total = step * power;
+    let start = page.at(12.0, y);
+    let pen = Pen::new(TEXT, 0.2 * page.u);
+    for k in 0..parts {
+        let lo = start + DVec2::new(total * f64::from(k) / f64::from(parts), 0.0);
+        let hi = lo + DVec2::new(total / f64::from(parts), 1.3 * page.u);
+        drawing.rect(
+            lo,
+            hi,
+            Some(if k % 2 == 0 { TEXT } else { Ink::new([255; 3]) }),
+            Some(pen),
+        );
+    }
+    let style = page.style(2.7, Face::Light, QUIET, Anchor::Middle);
+    drawing.text(start + DVec2::new(0.0, 4.6 * page.u), "0", style);
+    drawing.text(
+        start + DVec2::new(total, 4.6 * page.u),
+        &length(total),
+        style,
+    );
+    let note = page.style(2.7, Face::Light, QUIET, Anchor::Start);
+    drawing.text(
+        start + DVec2::new(total + 4.0 * page.u, 1.3 * page.u),
+        "1 : 1 in the SVG; pillars count as endlessly high here",
+        note,
+    );
+    axes(drawing, page);
+}
+
+/// Which way x and y point, in the map's lower left corner.
+fn axes(drawing: &mut Drawing, page: &Page) {
+    let u = page.u;
+    let origin = page.at(15.0, TABLE - 14.0);
+    let style = page.style(2.7, Face::Light, QUIET, Anchor::Middle);
+    for (way, name, at) in [
+        (DVec2::X, "x", DVec2::new(9.6, 0.8)),
+        (DVec2::NEG_Y, "y", DVec2::new(0.0, -9.0)),
+    ] {
+        let tip = origin + 7.6 * u * way;
+        drawing.polyline(&[origin, tip - u * way], Pen::new(QUIET, 0.22 * u));
+        drawing.polygon(
+            &[
+                tip,
+                tip - 1.6 * u * way + 0.6 * u * way.perp(),
+                tip - 1.6 * u * way - 0.6 * u * way.perp(),
+            ],
+            Some(QUIET),
+            None,
+        );
+        drawing.text(origin + u * at, name, style);
+    }
+}

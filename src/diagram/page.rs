@@ -1,0 +1,151 @@
+//! Measures, colours and type of the plan's page.
+//!
+//! Everything is laid out in units of a sixtieth of the forest's radius, `u`, on a page of at least 210 x 297 u:
+//! the proportions of A4, whatever the size of the forest.
+
+use crate::diagram::Facts;
+use crate::diagram::drawing::{Anchor, Ink, TextStyle};
+use crate::diagram::lettering::Face;
+use crate::support::{Support, SupportKind};
+use glam::DVec2;
+
+pub const PAPER: Ink = Ink::new([0xFC, 0xFB, 0xF8]);
+pub const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
+pub const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);
+pub const HAIR: Ink = Ink::new([0xC9, 0xC6, 0xBE]);
+pub const BASE: Ink = Ink::new([0xF1, 0xEE, 0xE6]);
+/// A pillar that no eye sees within its models' angles.
+pub const FREE: Ink = Ink::new([0xDA, 0xD7, 0xCF]);
+pub const RED: Ink = Ink::new([0xC4, 0x12, 0x1E]);
+
+const WIDTH: f64 = 210.0;
+const LEAST_HEIGHT: f64 = 297.0;
+/// The map's middle below the top edge.
+const MIDDLE: f64 = 129.0;
+/// Up to here fans are drawn, and eyes stand where they are, in radii of the forest.
+pub const RANGE: f64 = 1.24;
+/// Here stand the eyes that are further away.
+pub const RIM: f64 = 1.45;
+/// Top of the table of views, and the height of one of its rows.
+pub const TABLE: f64 = 240.0;
+pub const ROW: f64 = 6.0;
+/// Room below the table: key and scale bar.
+const BELOW: f64 = 33.0;
+
+/// Where things of the forest lie on the page.
+pub struct Page {
+    /// Middle of the forest and radius of the circle around it, millimetres.
+    pub centre: DVec2,
+    pub radius: f64,
+    /// Layout unit in millimetres.
+    pub u: f64,
+    height: f64,
+}
+
+impl Page {
+    pub fn new(facts: &Facts) -> Self {
+        let (centre, radius) = circle(facts.supports);
+        let rows = facts.views.len() as f64;
+        Self {
+            centre,
+            radius,
+            u: radius / 60.0,
+            height: LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW),
+        }
+    }
+
+    /// Millimetres.
+    pub fn size(&self) -> DVec2 {
+        self.u * DVec2::new(WIDTH, self.height)
+    }
+
+    /// A place given in layout units from the top left corner.
+    pub fn at(&self, x: f64, y: f64) -> DVec2 {
+        self.u * DVec2::new(x, y)
+    }
+
+    /// Bottom edge in layout units.
+    pub fn bottom(&self) -> f64 {
+        self.height
+    }
+
+    /// The page's place of a point of the scene, true scale.
+    pub fn place(&self, p: DVec2) -> DVec2 {
+        let d = p - self.centre;
+        self.at(WIDTH / 2.0, MIDDLE) + DVec2::new(d.x, -d.y)
+    }
+
+    pub fn outline(&self, points: &[DVec2]) -> Vec<DVec2> {
+        points.iter().map(|p| self.place(*p)).collect()
+    }
+
+    /// Where an eye is drawn (scene coordinates), and whether that is nearer than it stands.
+    pub fn stand(&self, eye: DVec2) -> (DVec2, bool) {
+        let d = eye - self.centre;
+        let rim = RIM * self.radius;
+        if d.length() <= rim {
+            (eye, false)
+        } else {
+            (self.centre + rim * d.normalize(), true)
+        }
+    }
+
+    /// Text of a size in layout units.
+    pub fn style(&self, size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
+        TextStyle {
+            size: size * self.u,
+            ink,
+            face,
+            anchor,
+            halo: None,
+        }
+    }
+}
+
+/// Middle and radius of a circle around all outlines; the unit is arbitrary if there are none.
+fn circle(supports: &[Support]) -> (DVec2, f64) {
+    let points: Vec<DVec2> = supports
+        .iter()
+        .flat_map(|s| outline(s).iter().copied())
+        .filter(|p| p.is_finite())
+        .collect();
+    let lo = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let hi = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let centre = (lo + hi) / 2.0;
+    let radius = points
+        .iter()
+        .map(|p| p.distance(centre))
+        .fold(0.0, f64::max);
+    if radius > 0.0 {
+        (centre, radius)
+    } else {
+        (DVec2::ZERO, 60.0)
+    }
+}
+
+/// Outline of a support from above.
+pub fn outline(support: &Support) -> &[DVec2] {
+    match &support.kind {
+        SupportKind::Pillar { profile, .. } => profile,
+        SupportKind::Base { outline, .. } => outline,
+    }
+}
+
+/// A colour mixed with white, 0 to 1.
+pub fn pale(rgb: [u8; 3], white: f64) -> Ink {
+    Ink::new(rgb.map(|c| (f64::from(c) + white * (255.0 - f64::from(c))).round() as u8))
+}
+
+/// A colour mixed with black, 0 to 1.
+pub fn deep(rgb: [u8; 3], black: f64) -> Ink {
+    Ink::new(rgb.map(|c| (f64::from(c) * (1.0 - black)).round() as u8))
+}
+
+/// A length for people: millimetres below a metre.
+pub fn length(mm: f64) -> String {
+    if mm < 1000.0 {
+        format!("{mm:.0} mm")
+    } else {
+        format!("{:.2} m", mm / 1000.0)
+    }
+}

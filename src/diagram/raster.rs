@@ -1,0 +1,90 @@
+//! Drawings as pixels (tiny-skia).
+
+use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash,
+    Transform,
+};
+
+/// Largest side of a picture in pixels: 8k by 8k needs 256 MB.
+const MAX_SIDE: u32 = 8192;
+
+impl Drawing {
+    /// The page as a PNG of this width in pixels (1 to 8192), on white.
+    pub fn png(&self, width_px: u32) -> Vec<u8> {
+        let width = width_px.clamp(1, MAX_SIDE);
+        let scale = f64::from(width) / self.size.x;
+        let height = ((self.size.y * scale).round() as u32).clamp(1, MAX_SIDE);
+        let mut pixmap = blank(width, height);
+        self.paint(&mut pixmap, scale);
+        encode(&pixmap)
+    }
+
+    /// Paints the list over what is there, `scale` pixels a unit.
+    pub fn paint(&self, pixmap: &mut Pixmap, scale: f64) {
+        for shape in &self.shapes {
+            paint(pixmap, shape, scale as f32);
+        }
+    }
+}
+
+/// A white picture; sides are clamped to 1..=8192.
+pub fn blank(width: u32, height: u32) -> Pixmap {
+    let mut pixmap = Pixmap::new(width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE))
+        .expect("sides between 1 and 8192");
+    pixmap.fill(Color::WHITE);
+    pixmap
+}
+
+/// The bytes of a PNG file.
+pub fn encode(pixmap: &Pixmap) -> Vec<u8> {
+    pixmap.encode_png().expect("writing a PNG to memory")
+}
+
+fn paint(pixmap: &mut Pixmap, shape: &Shape, scale: f32) {
+    // `None` for outlines with coordinates that are not finite: nothing to draw.
+    let Some(path) = path(&shape.steps) else {
+        return;
+    };
+    let transform = Transform::from_scale(scale, scale);
+    if let Some(ink) = shape.fill {
+        pixmap.fill_path(&path, &paint_of(ink), FillRule::Winding, transform, None);
+    }
+    if let Some(pen) = shape.pen {
+        let dash = pen
+            .dash
+            .and_then(|[dash, gap]| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
+        let stroke = Stroke {
+            width: pen.width as f32,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            dash,
+            ..Stroke::default()
+        };
+        pixmap.stroke_path(&path, &paint_of(pen.ink), &stroke, transform, None);
+    }
+}
+
+fn paint_of(ink: Ink) -> Paint<'static> {
+    let [r, g, b] = ink.rgb;
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(r, g, b, (255.0 * ink.alpha).round() as u8);
+    paint.anti_alias = true;
+    paint
+}
+
+fn path(steps: &[Step]) -> Option<Path> {
+    let mut builder = PathBuilder::new();
+    for step in steps {
+        match *step {
+            Step::Move(p) => builder.move_to(p.x as f32, p.y as f32),
+            Step::Line(p) => builder.line_to(p.x as f32, p.y as f32),
+            Step::Quad(a, p) => builder.quad_to(a.x as f32, a.y as f32, p.x as f32, p.y as f32),
+            Step::Cubic(a, b, p) => builder.cubic_to(
+                a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32,
+            ),
+            Step::Close => builder.close(),
+        }
+    }
+    builder.finish()
+}

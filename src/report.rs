@@ -1,0 +1,199 @@
+//! `report.json`: what was built and how good it is.
+//!
+//! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
+//! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
+
+use crate::mesh::Solid;
+use crate::render::Likeness;
+use crate::view::View;
+use glam::{DMat4, DVec3};
+use serde::Serialize;
+
+/// The whole report.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    pub program: Program,
+    /// Title of the scene.
+    pub scene: String,
+    pub views: Vec<ViewReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solid: Option<SolidReport>,
+    pub warnings: Vec<String>,
+    /// Only on request: it differs from run to run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub timings: Option<Vec<Timing>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Program {
+    pub name: String,
+    pub version: String,
+}
+
+impl Default for Program {
+    /// This one.
+    fn default() -> Self {
+        Self {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+/// One view: what it was to show and what it shows. Figures of stages that did not run are left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ViewReport {
+    pub name: String,
+    /// Where the eye stands and what it looks at, millimetres.
+    pub eye: [f64; 3],
+    pub look_at: [f64; 3],
+    pub models: Vec<ModelReport>,
+    /// Vertices and faces of the models together.
+    pub vertices: usize,
+    pub faces: usize,
+    /// Solid angle of the models as the eye sees them, steradians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solid_angle_sr: Option<f64>,
+    /// Share of that solid angle at which the eye meets a support of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<f64>,
+    /// Regions of the model that no support carries.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gaps: Option<usize>,
+    /// Depth groups: connected patches of one model component on one support.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub groups: Option<usize>,
+    /// Share of the rays at the models that meet the forest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hit_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_error_deg: Option<NormalError>,
+    /// Rays that the last two figures rest on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rays: Option<usize>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModelReport {
+    /// As the scene names it.
+    pub file: String,
+    /// From the file's coordinates to millimetres: rows of a 4 x 4 matrix for column vectors.
+    pub matrix: [[f64; 4]; 4],
+}
+
+/// Angles in degrees between the normals of target and forest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct NormalError {
+    pub mean: f64,
+    pub median: f64,
+    pub p90: f64,
+}
+
+/// The finished forest.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SolidReport {
+    pub triangles: usize,
+    pub vertices: usize,
+    pub volume_mm3: f64,
+    pub area_mm2: f64,
+    /// Pieces that would come apart.
+    pub parts: usize,
+    /// Hollows without a way out.
+    pub cavities: usize,
+    pub size_mm: [f64; 3],
+    pub checks: Vec<Check>,
+}
+
+/// A question about the solid and its answer.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Check {
+    pub name: String,
+    pub passed: bool,
+    /// What was found, with units.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub found: String,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Timing {
+    pub stage: String,
+    pub seconds: f64,
+}
+
+impl Report {
+    /// The file's text, with a line break at its end.
+    ///
+    /// # Panics
+    /// Never: all keys are texts. Numbers that are not finite become `null`.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a report of plain values") + "\n"
+    }
+}
+
+impl ViewReport {
+    /// What is known before anything is built.
+    pub fn new(view: &View) -> Self {
+        let models = view
+            .models
+            .iter()
+            .map(|m| ModelReport {
+                file: m.file.clone(),
+                matrix: rows(m.matrix),
+            })
+            .collect();
+        Self {
+            name: view.name.clone(),
+            eye: tidy(view.eye),
+            look_at: tidy(view.look_at),
+            models,
+            vertices: view.models.iter().map(|m| m.mesh.vertices.len()).sum(),
+            faces: view.models.iter().map(|m| m.mesh.faces.len()).sum(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds what the view's picture showed.
+    pub fn with_likeness(mut self, likeness: &Likeness) -> Self {
+        let Likeness {
+            hit,
+            mean_deg,
+            median_deg,
+            p90_deg,
+            pixels,
+        } = *likeness;
+        self.hit_share = Some(hit);
+        self.normal_error_deg = Some(NormalError {
+            mean: mean_deg,
+            median: median_deg,
+            p90: p90_deg,
+        });
+        self.rays = Some(pixels);
+        self
+    }
+}
+
+impl SolidReport {
+    /// Counts and measures of the forest, with the answers of further checks.
+    pub fn new(solid: &Solid, checks: Vec<Check>) -> Self {
+        let (lo, hi) = solid.bounds();
+        Self {
+            triangles: solid.mesh().faces.len(),
+            vertices: solid.mesh().vertices.len(),
+            volume_mm3: solid.volume_mm3(),
+            area_mm2: solid.area_mm2(),
+            parts: solid.parts(),
+            cavities: solid.cavities(),
+            size_mm: tidy(hi - lo),
+            checks,
+        }
+    }
+}
+
+/// Without -0, which JSON would show.
+fn tidy(p: DVec3) -> [f64; 3] {
+    (p + 0.0).to_array()
+}
+
+fn rows(matrix: DMat4) -> [[f64; 4]; 4] {
+    std::array::from_fn(|row| (matrix.row(row) + 0.0).to_array())
+}

@@ -1,0 +1,226 @@
+//! View pictures and their figures, by identities.
+
+use crate::shapes::{ORANGE, ball, grove, view};
+use glam::{DMat4, DVec3};
+use pillarforest::bvh::Bvh;
+use pillarforest::mesh::TriMesh;
+use pillarforest::render::{Likeness, thumbnail, view_picture};
+use pillarforest::report::{Report, SolidReport, ViewReport};
+use pillarforest::view::View;
+
+const EYE: DVec3 = DVec3::new(90.0, -40.0, 25.0);
+
+fn owl() -> View {
+    view(
+        "owl",
+        EYE,
+        ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 24),
+        ORANGE,
+    )
+}
+
+fn likeness(view: &View, forest: &TriMesh) -> Likeness {
+    view_picture(view, forest, &Bvh::new(forest), None, 96).0
+}
+
+fn about_eye(factor: f64) -> DMat4 {
+    DMat4::from_translation(EYE)
+        * DMat4::from_scale(DVec3::splat(factor))
+        * DMat4::from_translation(-EYE)
+}
+
+#[test]
+fn a_forest_that_is_the_target_has_no_error() {
+    let found = likeness(&owl(), &owl().models[0].mesh);
+    assert!(found.pixels > 5000);
+    assert_eq!((found.hit, found.mean_deg, found.p90_deg), (1.0, 0.0, 0.0));
+}
+
+#[test]
+fn scaling_about_the_eye_changes_nothing() {
+    let small = owl().models[0].mesh.transformed(about_eye(0.4));
+    let found = likeness(&owl(), &small);
+    // Rays that graze an edge may meet the neighbouring facet.
+    assert!(
+        found.hit > 0.999 && found.median_deg < 1e-6 && found.p90_deg < 1e-6,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn inside_out_is_as_wrong_as_can_be() {
+    let mut forest = owl().models[0].mesh.clone();
+    forest.faces.iter_mut().for_each(|f| f.swap(0, 1));
+    let found = likeness(&owl(), &forest);
+    assert!((found.mean_deg - 180.0).abs() < 1e-9 && found.hit == 1.0);
+}
+
+#[test]
+fn no_forest_counts_as_ninety_degrees() {
+    let found = likeness(&owl(), &TriMesh::default());
+    assert_eq!(
+        (found.hit, found.mean_deg, found.median_deg, found.p90_deg),
+        (0.0, 90.0, 90.0, 90.0)
+    );
+}
+
+/// A square plate around a point whose normal is turned from the direction to the eye by an angle about the vertical.
+fn plate(middle: DVec3, half: f64, turn: f64) -> TriMesh {
+    let normal =
+        DMat4::from_rotation_z(turn).transform_vector3((EYE - middle).with_z(0.0).normalize());
+    let side = DVec3::Z.cross(normal);
+    let vertices = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, z)| middle + half * (x * side + z * DVec3::Z))
+        .to_vec();
+    TriMesh {
+        vertices,
+        faces: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+#[test]
+fn a_turned_plate_is_off_by_its_turn() {
+    let middle = DVec3::new(0.0, 0.0, 25.0);
+    let view = view("plate", EYE, plate(middle, 5.0, 0.0), ORANGE);
+    for degrees in [0.0f64, 3.0, 17.0, 40.0] {
+        let found = likeness(&view, &plate(middle, 30.0, degrees.to_radians()));
+        for figure in [found.mean_deg, found.median_deg, found.p90_deg] {
+            assert!((figure - degrees).abs() < 1e-6, "{degrees}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn half_a_forest_is_half_a_hit() {
+    let middle = DVec3::new(0.0, 0.0, 25.0);
+    let view = view("plate", EYE, plate(middle, 5.0, 0.0), ORANGE);
+    let mut forest = plate(middle, 5.0, 0.0);
+    forest.faces.truncate(1);
+    let found = likeness(&view, &forest);
+    assert!((found.hit - 0.5).abs() < 0.02, "{found:?}");
+    assert!((found.mean_deg - 45.0).abs() < 2.0, "{found:?}");
+}
+
+#[test]
+fn turning_everything_about_the_vertical_changes_nothing() {
+    let forest = ball(DVec3::new(2.0, 2.5, 19.5), 10.0, 16);
+    let before = likeness(&owl(), &forest);
+    let turn = DMat4::from_rotation_z(0.7);
+    let turned = view(
+        "owl",
+        turn.transform_point3(EYE),
+        owl().models[0].mesh.transformed(turn),
+        ORANGE,
+    );
+    let after = likeness(&turned, &forest.transformed(turn));
+    assert!(
+        (before.mean_deg - after.mean_deg).abs() < 0.1
+            && (before.median_deg - after.median_deg).abs() < 0.1,
+        "{before:?} {after:?}"
+    );
+}
+
+fn grove_forest() -> (Vec<View>, TriMesh) {
+    let (views, supports) = grove();
+    let mut forest = TriMesh::default();
+    supports.iter().for_each(|s| forest.append(&s.mesh));
+    (views, forest)
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let (views, forest) = grove_forest();
+    let bvh = Bvh::new(&forest);
+    let colours = vec![ORANGE; forest.faces.len()];
+    let draw = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            (
+                view_picture(&views[0], &forest, &bvh, Some(&colours), 64),
+                thumbnail(&forest, &bvh, None, 64),
+            )
+        })
+    };
+    assert_eq!(draw(1), draw(3));
+}
+
+#[test]
+fn pictures_show_three_panels_and_thumbnails_a_forest() {
+    let (views, forest) = grove_forest();
+    let bvh = Bvh::new(&forest);
+    let picture =
+        tiny_skia::Pixmap::decode_png(&view_picture(&views[0], &forest, &bvh, None, 100).1)
+            .unwrap();
+    assert!(picture.width() >= 300 && picture.height() >= 100);
+    let drawn = |p: &tiny_skia::Pixmap, left: u32, right: u32| {
+        let inside = p
+            .pixels()
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| (left..right).contains(&(*k as u32 % p.width())));
+        inside
+            .filter(|(_, c)| c.red().min(c.green()).min(c.blue()) < 250)
+            .count()
+    };
+    for panel in 0..3 {
+        assert!(
+            drawn(
+                &picture,
+                panel * picture.width() / 3,
+                (panel + 1) * picture.width() / 3
+            ) > 1000
+        );
+    }
+    let small = tiny_skia::Pixmap::decode_png(&thumbnail(&forest, &bvh, None, 100)).unwrap();
+    let share = drawn(&small, 0, 100) as f64 / 10_000.0;
+    assert!((0.3..0.95).contains(&share), "{share}");
+    assert!(
+        tiny_skia::Pixmap::decode_png(&thumbnail(
+            &TriMesh::default(),
+            &Bvh::new(&TriMesh::default()),
+            None,
+            20
+        ))
+        .is_ok()
+    );
+}
+
+#[test]
+fn a_report_can_be_read_back_and_knows_no_clock() {
+    let mut owl = owl();
+    owl.models[0].matrix = DMat4::from_translation(DVec3::new(1.0, 2.0, -0.0));
+    let figures = Likeness {
+        hit: 0.5,
+        mean_deg: 11.0,
+        median_deg: 7.0,
+        p90_deg: 20.0,
+        pixels: 4,
+    };
+    let solid = pillarforest::mesh::Solid::new(owl.models[0].mesh.clone()).unwrap();
+    let report = Report {
+        scene: "grove".into(),
+        views: vec![ViewReport::new(&owl).with_likeness(&figures)],
+        solid: Some(SolidReport::new(&solid, vec![])),
+        ..Report::default()
+    };
+    let json = report.json();
+    assert!(json.ends_with("}\n") && !json.contains("seconds") && !json.contains("-0.0"));
+    let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let view = &value["views"][0];
+    assert_eq!(view["eye"], serde_json::json!([90.0, -40.0, 25.0]));
+    assert_eq!(view["models"][0]["file"], "owl.obj");
+    assert_eq!(
+        view["models"][0]["matrix"][1],
+        serde_json::json!([0.0, 1.0, 0.0, 2.0]),
+        "rows, translation last"
+    );
+    assert_eq!(view["normal_error_deg"]["p90"], 20.0);
+    assert!(
+        view.get("coverage").is_none(),
+        "what was not measured is left out"
+    );
+    assert_eq!(value["solid"]["parts"], 1);
+}

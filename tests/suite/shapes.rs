@@ -1,0 +1,161 @@
+//! Small bodies and forests for tests of several subjects.
+
+use glam::{DMat4, DVec2, DVec3};
+use pillarforest::mesh::TriMesh;
+use pillarforest::support::{Datum, Layer, Support, SupportKind};
+use pillarforest::view::{PlacedModel, View};
+use std::f64::consts::TAU;
+
+pub const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
+pub const BLUE: [u8; 3] = [0x56, 0xB4, 0xE9];
+pub const GREEN: [u8; 3] = [0x00, 0x9E, 0x73];
+
+/// Corners of a regular polygon, counter-clockwise.
+pub fn ring(centre: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
+    (0..corners)
+        .map(|k| centre + radius * DVec2::from_angle(TAU * k as f64 / corners as f64))
+        .collect()
+}
+
+/// An upright prism over a convex counter-clockwise outline.
+pub fn prism(outline: &[DVec2], bottom: f64, top: f64) -> TriMesh {
+    let n = outline.len() as u32;
+    let vertices = [bottom, top]
+        .iter()
+        .flat_map(|z| outline.iter().map(|p| p.extend(*z)))
+        .collect();
+    let mut faces = Vec::new();
+    for i in 0..n {
+        let j = (i + 1) % n;
+        faces.extend([[i, j, n + j], [i, n + j, n + i]]);
+    }
+    faces.extend((1..n - 1).flat_map(|i| [[0, i + 1, i], [n, n + i, n + i + 1]]));
+    TriMesh { vertices, faces }
+}
+
+/// A ball of facets.
+pub fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
+    let (n, m) = (2 * rows, rows);
+    let mut mesh = TriMesh::default();
+    mesh.vertices.push(centre - radius * DVec3::Z);
+    for row in 1..m {
+        let tilt = std::f64::consts::PI * (f64::from(row) / f64::from(m) - 0.5);
+        let ring = ring(DVec2::ZERO, radius * tilt.cos(), n as usize);
+        mesh.vertices
+            .extend(ring.iter().map(|p| centre + p.extend(radius * tilt.sin())));
+    }
+    mesh.vertices.push(centre + radius * DVec3::Z);
+    let at = |row: u32, k: u32| 1 + (row - 1) * n + k % n;
+    let last = mesh.vertices.len() as u32 - 1;
+    for k in 0..n {
+        mesh.faces.push([0, at(1, k + 1), at(1, k)]);
+        mesh.faces.push([last, at(m - 1, k), at(m - 1, k + 1)]);
+        for row in 1..m - 1 {
+            mesh.faces
+                .push([at(row, k), at(row, k + 1), at(row + 1, k + 1)]);
+            mesh.faces
+                .push([at(row, k), at(row + 1, k + 1), at(row + 1, k)]);
+        }
+    }
+    mesh
+}
+
+pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support {
+    let profile = ring(axis, radius, corners);
+    Support {
+        name: format!("pillar at {axis}"),
+        mesh: prism(&profile, 0.0, 40.0),
+        kind: SupportKind::Pillar {
+            axis,
+            profile,
+            bottom: 0.0,
+            top: 40.0,
+            round: corners > 12,
+        },
+        layer: Some(Layer {
+            datum,
+            front: 2.0,
+            back: 1.0,
+            core: 0.5,
+        }),
+    }
+}
+
+pub fn base(outline: Vec<DVec2>) -> Support {
+    Support {
+        name: "base".into(),
+        mesh: prism(&outline, -3.0, 0.0),
+        kind: SupportKind::Base {
+            outline,
+            bottom: -3.0,
+            top: 0.0,
+        },
+        layer: None,
+    }
+}
+
+pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
+    let (lo, hi) = model.bounds().unwrap();
+    let model = PlacedModel {
+        name: name.into(),
+        file: format!("{name}.obj"),
+        matrix: DMat4::IDENTITY,
+        mesh: model,
+    };
+    View {
+        name: name.into(),
+        eye,
+        look_at: (lo + hi) / 2.0,
+        models: vec![model],
+        colour,
+    }
+}
+
+/// Three eyes, one of them far away, and pillars of all kinds.
+pub fn grove() -> (Vec<View>, Vec<Support>) {
+    let views = vec![
+        view(
+            "owl",
+            DVec3::new(150.0, 10.0, 20.0),
+            ball(DVec3::new(12.0, 2.0, 20.0), 9.0, 12),
+            ORANGE,
+        ),
+        view(
+            "hare",
+            DVec3::new(-35.0, 30.0, 20.0),
+            ball(DVec3::new(-10.0, 8.0, 20.0), 7.0, 12),
+            BLUE,
+        ),
+        view(
+            "a \"fish\" & <more>",
+            DVec3::new(-5.0, -44.0, 20.0),
+            ball(DVec3::new(0.0, -10.0, 20.0), 8.0, 12),
+            GREEN,
+        ),
+    ];
+    let places = [
+        (14.0, 9.0),
+        (8.0, 4.5),
+        (16.0, -1.0),
+        (9.0, -5.0),
+        (-9.0, 13.0),
+        (-6.0, 7.0),
+        (-12.0, 3.0),
+        (-6.0, -12.0),
+        (0.5, -9.0),
+        (6.0, -13.0),
+        (22.0, 18.0),
+    ];
+    let kinds = [
+        (48, Datum::AxisPlane),
+        (4, Datum::AxisPlane),
+        (6, Datum::Surface),
+    ];
+    let mut supports: Vec<Support> = places
+        .iter()
+        .enumerate()
+        .map(|(k, &(x, y))| pillar(DVec2::new(x, y), 3.2, kinds[k % 3].0, kinds[k % 3].1))
+        .collect();
+    supports.push(base(ring(DVec2::ZERO, 32.0, 96)));
+    (views, supports)
+}
