@@ -10,5 +10,6 @@ pub mod bvh;
 pub mod support;
 pub mod view;
 pub mod mimic;
+pub mod formats;
 pub mod scene;
 pub mod compile;

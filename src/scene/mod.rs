@@ -1,5 +1,22 @@
 //! Scenes: the user's RON text (`raw`) and what it means (`resolve`), in which nothing is left to decide.
 
+mod checks;
+pub mod defaults;
+mod layout;
+mod lexer;
+mod names;
+mod placing;
+mod raw;
+mod reader;
+mod resolve;
+mod shapes;
+mod spanned;
+mod supports;
+mod tree;
+
+pub use reader::nearest;
+pub use resolve::{ReadFile, resolve};
+
 use crate::mimic::Energy;
 use crate::support::Support;
 use crate::view::View;
