@@ -9,13 +9,19 @@ mod placing;
 mod raw;
 mod reader;
 mod resolve;
+mod schema;
+mod set;
 mod shapes;
 mod spanned;
 mod supports;
+mod template;
 mod tree;
 
 pub use reader::nearest;
 pub use resolve::{ReadFile, resolve};
+pub use schema::schema;
+pub use set::set;
+pub use template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 
 use crate::mimic::Energy;
 use crate::support::Support;

@@ -1,7 +1,7 @@
 //! Where models stand: by matrix as written, or fitted to a size and turned towards the eye.
 
 use super::defaults;
-use super::raw::{RawFit, RawPlace, RawUnit};
+use super::raw::{List, RawFit, RawPlace, RawUnit};
 use super::reader::{Reader, Span, error_at, short};
 use super::spanned::Field;
 use crate::diag::Diagnostic;
@@ -159,7 +159,15 @@ fn axis(reader: &mut Reader, field: &Field<String>, name: &str, default: &str) -
 }
 
 /// A row-major affine matrix that can be undone.
-fn matrix(reader: &mut Reader, rows: &[[f64; 4]; 4], span: &Span) -> Option<DMat4> {
+fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMat4> {
+    let given: Vec<[f64; 4]> = list.iter().filter_map(|row| reader.value(row).copied()).collect();
+    if given.len() < list.len() {
+        return None;
+    }
+    let Ok(rows) = <[[f64; 4]; 4]>::try_from(given) else {
+        reader.error(span, format!("a placing matrix has four rows of four numbers, found {} rows", list.len()));
+        return None;
+    };
     if rows.iter().flatten().any(|v| !v.is_finite()) {
         reader.error(span, "the matrix has an entry that is not a finite number");
         return None;
@@ -171,7 +179,7 @@ fn matrix(reader: &mut Reader, rows: &[[f64; 4]; 4], span: &Span) -> Option<DMat
         );
         return None;
     }
-    let matrix = DMat4::from_cols_array_2d(rows).transpose();
+    let matrix = DMat4::from_cols_array_2d(&rows).transpose();
     let columns = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
     let determinant = matrix.determinant();
     if columns == 0.0 || determinant.abs() < 1e-9 * columns {

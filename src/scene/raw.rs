@@ -108,7 +108,7 @@ pub enum RawUnit {
 #[derive(Debug, Deserialize)]
 pub enum RawPlace {
     Fit(RawFit),
-    Matrix([[f64; 4]; 4]),
+    Matrix(List<[f64; 4]>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -159,8 +159,9 @@ wanted! {
     bool => "true or false";
     [f64; 2] => "a point `(x, y)`";
     [f64; 3] => "a point `(x, y, z)`";
+    [f64; 4] => "a row of four numbers `(a, b, c, d)`";
     RawUnit => "mm, cm, m or inch";
-    RawPlace => "`Fit(...)` or `Matrix(((...), (...), (...), (...)))` with four rows of four numbers";
+    RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
     RawShape => "`Round(...)`, `Polygon(...)`, `Rectangle(...)` or `Profile(...)`";
     RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";

@@ -177,9 +177,9 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A number for people: at most four decimals, none without need.
+/// A number for people: at most three decimals, none without need.
 pub fn short(value: f64) -> String {
-    let rounded = (value * 1e4).round() / 1e4;
+    let rounded = (value * 1e3).round() / 1e3;
     if value != 0.0 && rounded == 0.0 { format!("{value:e}") } else { format!("{rounded}") }
 }
 
@@ -194,10 +194,11 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
     (best.0 > 0.78).then_some(best.1)
 }
 
-/// Makes text fit for one line of a terminal: control and direction characters escaped, cut at 60 characters.
+/// Makes text fit for one line of a terminal: control and direction characters escaped, cut at 60 characters or the first line end.
 pub fn printable(text: &str) -> String {
-    let mut out = crate::diag::escaped(&text.chars().take(60).collect::<String>());
-    if text.chars().count() > 60 {
+    let line = text.lines().next().unwrap_or("");
+    let mut out = crate::diag::escaped(&line.chars().take(60).collect::<String>());
+    if line.len() < text.len() || line.chars().count() > 60 {
         out.push_str("...");
     }
     out
