@@ -73,3 +73,13 @@ pub struct Warned<T> {
     pub value: T,
     pub warnings: Vec<Diagnostic>,
 }
+
+/// Text that cannot play tricks on a terminal: control characters, text direction marks and invisible characters
+/// are written as `\u{..}`; line ends and tabs too.
+pub fn escaped(text: &str) -> String {
+    let hidden = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{061c}' | '\u{feff}')
+    };
+    text.chars().flat_map(|c| if hidden(c) { c.escape_unicode().collect::<Vec<_>>() } else { vec![c] }).collect()
+}

@@ -16,7 +16,6 @@ pub mod mimic;
 pub mod relief;
 pub mod carve;
 pub mod formats;
-pub mod formats;
 pub mod diagram;
 pub mod render;
 pub mod report;

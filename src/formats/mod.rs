@@ -1,4 +1,7 @@
-//! Files: reading meshes from people's files, and (printable formats, pictures of the result) writing ours.
+//! Files: reading meshes from people's files, and writing printable ones.
+//!
+//! Readers and writers work on bytes; they touch no file and no clock, and the same input gives the same bytes.
+//! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
 
 pub mod inspect;
 pub mod read;
@@ -11,11 +14,6 @@ mod xml_3mf;
 
 pub use inspect::{Inspection, inspect};
 pub use read::{load_model, read_mesh};
-//! File formats.
-//!
-//! Writers take solids and give bytes; they touch no file and no clock, and the same input gives the same bytes.
-//! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
-
 mod glb;
 mod stl;
 mod threemf;

@@ -1,5 +1,28 @@
 //! Scenes: the user's RON text (`raw`) and what it means (`resolve`), in which nothing is left to decide.
 
+mod checks;
+pub mod defaults;
+mod layout;
+mod lexer;
+mod names;
+mod placing;
+mod raw;
+mod reader;
+mod resolve;
+mod schema;
+mod set;
+mod shapes;
+mod spanned;
+mod supports;
+mod template;
+mod tree;
+
+pub use reader::nearest;
+pub use resolve::{ReadFile, resolve};
+pub use schema::schema;
+pub use set::set;
+pub use template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
+
 use crate::mimic::Energy;
 use crate::support::Support;
 use crate::view::View;

@@ -1,0 +1,206 @@
+//! What each command does, in order.
+
+use super::files::{self, ModelFiles};
+use super::messages::{Messages, Source};
+use super::progress::Reporter;
+use super::write::{self, Target};
+use super::{Cli, Command, Global, SceneArgs, Style};
+use clap::CommandFactory;
+use pillarforest::compile::{self, Build, Goal};
+use pillarforest::diag::{Diagnostic, Warned};
+use pillarforest::scene::{self, Scene};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+const WELL: u8 = 0;
+const WRONG_INPUT: u8 = 1;
+const WRONG_USAGE: u8 = 2;
+const NOT_PRINTABLE: u8 = 3;
+
+const NOTHING: &str = "Nothing was written.";
+
+/// Runs the command; gives the exit code.
+pub fn run(cli: &Cli) -> u8 {
+    let messages = Messages::new(&cli.global);
+    match &cli.command {
+        Command::Init { scene, force } => init(&messages, scene, *force),
+        Command::Check { scene } => check(&messages, &cli.global, scene),
+        Command::Build { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::All),
+        Command::View { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::Plan),
+        Command::Render { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::Pictures),
+        Command::Inspect { files, json } => inspect(&messages, files, *json || cli.global.diagnostics == Style::Json),
+        Command::Schema => say(&scene::schema()),
+        Command::Completions { shell } => completions(*shell),
+    }
+}
+
+/// Prints to standard output; a closed pipe is no error.
+fn say(text: &str) -> u8 {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    WELL
+}
+
+fn completions(shell: clap_complete::Shell) -> u8 {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "pillarforest", &mut script);
+    say(&String::from_utf8_lossy(&script))
+}
+
+/// Prints the problems of a failed command.
+fn fail(messages: &Messages, list: &[Diagnostic], source: Option<&Source>, code: u8) -> u8 {
+    messages.print(list, source);
+    messages.closing(list, NOTHING);
+    code
+}
+
+fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let files = [(path.to_path_buf(), scene::TEMPLATE.as_bytes()), (folder.join(scene::TEMPLATE_MODEL_FILE), scene::TEMPLATE_MODEL)];
+    let in_way: Vec<Diagnostic> = files
+        .iter()
+        .filter(|(path, bytes)| path.exists() && !force && std::fs::read(path).ok().as_deref() != Some(*bytes))
+        .map(|(path, _)| {
+            Diagnostic::error(format!("\"{}\" exists already", path.display())).help("`--force` overwrites it; or give another name: `pillarforest init my.ron`")
+        })
+        .collect();
+    if !in_way.is_empty() {
+        return fail(messages, &in_way, None, WRONG_INPUT);
+    }
+    for (path, bytes) in &files {
+        if let Err(error) = write::into_file(path, bytes) {
+            let problem = Diagnostic::error(format!("cannot write \"{}\": {error}", path.display()));
+            return fail(messages, &[problem], None, WRONG_INPUT);
+        }
+    }
+    let scene_argument = if path == Path::new("scene.ron") { String::new() } else { format!(" {}", path.display()) };
+    say(&format!("wrote {} and {}\nnext: pillarforest build{scene_argument}\n", files[0].0.display(), files[1].0.display()))
+}
+
+/// A scene read for a command, with its text for messages.
+struct Loaded {
+    scene: Scene,
+    warnings: Vec<Diagnostic>,
+    source: Source,
+}
+
+/// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
+fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
+    let stop = |list: &[Diagnostic], source: Option<&Source>| {
+        fail(messages, list, source, WRONG_INPUT);
+        None
+    };
+    let mut text = match files::scene_text(&args.scene) {
+        Ok(text) => text,
+        Err(problem) => return stop(&[problem], None),
+    };
+    for assignment in &args.sets {
+        text = match scene::set(&text, assignment) {
+            Ok(text) => text,
+            Err(problem) => return stop(&[problem], None),
+        };
+    }
+    let changed = if args.sets.is_empty() { "" } else { " (with --set)" };
+    let source = Source { path: format!("{}{changed}", args.scene.display()), text };
+    let library = args.models.clone().or_else(|| std::env::var_os("PILLARFOREST_MODELS").filter(|v| !v.is_empty()).map(PathBuf::from));
+    let model_files = ModelFiles::of(&args.scene, library.as_deref());
+    match scene::resolve(&source.text, &|name| model_files.read(name)) {
+        Err(problems) => stop(&problems, Some(&source)),
+        Ok(Warned { value, warnings }) => {
+            if messages.print(&warnings, Some(&source)) {
+                messages.closing(&warnings, NOTHING);
+                return None;
+            }
+            Some(Loaded { scene: value, warnings, source })
+        }
+    }
+}
+
+/// Runs the pipeline with progress. The error code has been explained to the user.
+fn compile(messages: &Messages, global: &Global, args: &SceneArgs, loaded: &Loaded, goal: Goal) -> Result<(Build, Reporter), u8> {
+    if let Some(jobs) = args.jobs {
+        // Fails only if a pool exists already, which then keeps its size.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global();
+    }
+    let reporter = Reporter::new(global.quiet, global.verbose);
+    let result = compile::run(&loaded.scene, goal, &|stage, share| reporter.report(stage, share));
+    reporter.finish();
+    let build = result.map_err(|problems| {
+        let all: Vec<Diagnostic> = problems.iter().chain(&loaded.warnings).cloned().collect();
+        messages.print(&problems, Some(&loaded.source));
+        messages.closing(&all, NOTHING);
+        WRONG_INPUT
+    })?;
+    if messages.print(&build.warnings, Some(&loaded.source)) {
+        messages.closing(&build.warnings, NOTHING);
+        return Err(WRONG_INPUT);
+    }
+    if args.timings {
+        eprint!("{}", reporter.timings());
+    }
+    Ok((build, reporter))
+}
+
+fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
+    let Some(loaded) = load(messages, args) else { return WRONG_INPUT };
+    match compile(messages, global, args, &loaded, Goal::Check) {
+        Err(code) => code,
+        Ok((build, _)) => {
+            let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+            let views = count(loaded.scene.views.len(), "view");
+            let pillars = loaded.scene.supports.iter().filter(|s| s.layer.is_some()).count();
+            let warnings = loaded.warnings.len() + build.warnings.len();
+            let found = if warnings == 0 { "no problems".to_string() } else { count(warnings, "warning") };
+            say(&format!("{}: {views}, {}: {found}\n", args.scene.display(), count(pillars, "pillar")))
+        }
+    }
+}
+
+fn make(messages: &Messages, global: &Global, args: &SceneArgs, output: Option<&Path>, goal: Goal) -> u8 {
+    let allowed: &[&str] = match goal {
+        Goal::Plan => &["svg", "png"],
+        Goal::Pictures => &[],
+        _ => &["3mf", "stl", "glb", "svg", "png", "json"],
+    };
+    let target = match Target::new(output, &args.scene, allowed) {
+        Ok(target) => target,
+        Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
+    };
+    let Some(loaded) = load(messages, args) else { return WRONG_INPUT };
+    let (build, reporter) = match compile(messages, global, args, &loaded, goal) {
+        Ok(done) => done,
+        Err(code) => return code,
+    };
+    match target.write(&build.files) {
+        Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
+        Ok(path) => {
+            let seconds = reporter.finish().as_secs_f64();
+            say(&format!("wrote {}  {}  ({seconds:.1} s)\n", path.display(), build.summary));
+            if build.printable || goal == Goal::Plan { WELL } else { NOT_PRINTABLE }
+        }
+    }
+}
+
+fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
+    let mut code = WELL;
+    for path in paths {
+        let name = path.display().to_string();
+        let found = files::regular(path).and_then(|bytes| pillarforest::formats::inspect(&name, &bytes));
+        match found {
+            Err(problem) => {
+                messages.print(&[problem], None);
+                code = WRONG_INPUT;
+            }
+            Ok(Warned { value, warnings }) => {
+                let denied = messages.print(&warnings, None);
+                say(&if json { format!("{}\n", serde_json::json!(value)) } else { format!("{value}") });
+                if code != WRONG_INPUT && !value.printable() {
+                    code = NOT_PRINTABLE;
+                }
+                if denied {
+                    code = WRONG_INPUT;
+                }
+            }
+        }
+    }
+    code
+}

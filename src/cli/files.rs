@@ -1,0 +1,135 @@
+//! Reading: the scene's text and the model files it names.
+//!
+//! A scene may come from anywhere, so what it names is read only if it is a regular file in or below the scene's folder,
+//! or if it lies, by its bare file name, in the folder the user gave with `--models`.
+
+use pillarforest::diag::{Diagnostic, Place, escaped};
+use pillarforest::scene::nearest;
+use std::fs;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Larger files are refused.
+const LARGEST_FILE: u64 = 2 << 30;
+
+/// The text of a scene without byte order mark.
+///
+/// # Errors
+/// No such file, not a regular file, or not UTF-8 (with the offset of the first bad byte).
+pub fn scene_text(path: &Path) -> Result<String, Diagnostic> {
+    let shown = path.display().to_string();
+    let bytes = regular(path).map_err(|problem| match path.exists() {
+        true => problem,
+        false => Diagnostic::error(format!("there is no scene \"{shown}\""))
+            .help("`pillarforest init` writes one to start from; or give its name: `pillarforest build scenes/my.ron`"),
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to() as u64;
+        Diagnostic::error(format!("the scene is not UTF-8 text: byte {offset} fits no character"))
+            .at(Place::Byte { file: shown, offset })
+            .help("save it as UTF-8 in the editor")
+    })?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_string).unwrap_or(text))
+}
+
+/// The bytes of a regular file of reasonable size.
+pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    let shown = path.display().to_string();
+    let fail = |why: String| Diagnostic::error(format!("cannot read \"{shown}\": {why}"));
+    let meta = fs::metadata(path).map_err(|e| fail(e.to_string()))?;
+    if meta.is_dir() {
+        return Err(fail("it is a directory".into()));
+    }
+    if !meta.is_file() {
+        return Err(fail("it is not a regular file".into()));
+    }
+    if meta.len() > LARGEST_FILE {
+        return Err(fail(format!("it is {} MB large; the limit is {} MB", meta.len() >> 20, LARGEST_FILE >> 20)));
+    }
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(|e| fail(e.to_string()))?;
+    file.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(|e| fail(e.to_string()))?;
+    Ok(bytes)
+}
+
+/// Where model files are looked for.
+pub struct ModelFiles {
+    pub folder: PathBuf,
+    pub library: Option<PathBuf>,
+}
+
+impl ModelFiles {
+    /// The model files of a scene.
+    pub fn of(scene: &Path, library: Option<&Path>) -> Self {
+        let folder = scene.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Self { folder: folder.to_path_buf(), library: library.map(Path::to_path_buf) }
+    }
+
+    /// Reads the file a scene calls `name`.
+    ///
+    /// # Errors
+    /// The name is no plain relative path, or there is no such regular file.
+    pub fn read(&self, name: &str) -> Result<Vec<u8>, Diagnostic> {
+        well_named(name)?;
+        let relative = Path::new(name);
+        if let (Some(library), Some(file)) = (&self.library, relative.file_name()) {
+            let found = library.join(file);
+            if found.exists() {
+                return regular(&found);
+            }
+        }
+        let leaves = relative.components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
+        if leaves {
+            return Err(Diagnostic::error("the model file lies outside the scene's folder")
+                .help("copy it beside the scene, or give its folder: `--models DIR` finds it by its file name"));
+        }
+        let path = self.folder.join(relative);
+        if !path.exists() {
+            return Err(self.missing(&path));
+        }
+        regular(&path)
+    }
+
+    /// No such file: where it was looked for, and what is there instead.
+    fn missing(&self, path: &Path) -> Diagnostic {
+        let absolute = std::path::absolute(path).unwrap_or(path.to_path_buf());
+        let mut problem = Diagnostic::error(format!("there is no file \"{}\"", escaped(&absolute.display().to_string())));
+        let wanted = path.file_name().unwrap_or_default().to_string_lossy().to_string();
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut there: Vec<String> = fs::read_dir(folder)
+            .into_iter()
+            .flatten()
+            .take(1000)
+            .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().to_string()))
+            .collect();
+        there.sort();
+        if let Some(guess) = nearest(&wanted, there.iter().map(String::as_str)) {
+            problem = problem.help(format!("did you mean \"{}\"?", escaped(guess)));
+        }
+        match &self.library {
+            Some(library) => problem.help(format!("it is not in \"{}\" (--models) either", escaped(&library.display().to_string()))),
+            None => problem.help("models kept elsewhere are found with `--models DIR` or the variable PILLARFOREST_MODELS"),
+        }
+    }
+}
+
+/// Refuses names that mean something else on another system, or no file at all.
+fn well_named(name: &str) -> Result<(), Diagnostic> {
+    let fail = |why: &str, help: &str| Err(Diagnostic::error(why.to_string()).help(help.to_string()));
+    if name.trim().is_empty() {
+        return fail("the name of the model file is empty", "give a file beside the scene: file: \"models/owl.ply\"");
+    }
+    if name.contains("://") {
+        return fail("a model cannot be read from the network", "download the file first and name the copy");
+    }
+    if name.starts_with("\\\\") || name.starts_with("//") {
+        return fail("a model cannot be read from a network share", "copy the file beside the scene");
+    }
+    if name.contains('\\') {
+        return fail("the file name has backslashes", "write folders with `/`, which works on every system");
+    }
+    if name.contains('\0') {
+        return fail("the file name holds a NUL character", "give a file beside the scene");
+    }
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! The command line: arguments, commands and exit codes.
+//!
+//! Only here are files, the clock and the terminal touched. Exit codes: 0 everything passed our own checks, 1 something is
+//! wrong with the scene or its files, 2 wrong usage, 3 built and checked but not printable.
+
+mod commands;
+mod files;
+mod messages;
+mod progress;
+mod write;
+
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const AFTER: &str = "\
+A new forest in three commands:
+  pillarforest init              writes scene.ron and a model to start from
+  pillarforest check             reads everything, says what is wrong, writes nothing
+  pillarforest build             writes the forest, plan, pictures and report to out/scene/
+
+Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, 3 built but not printable.";
+
+/// Turns a scene of models, eyes and pillars into a printable pillar forest: each model appears from its own eye only.
+#[derive(Debug, Parser)]
+#[command(name = "pillarforest", version, after_help = AFTER, propagate_version = true, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+    #[command(flatten)]
+    pub global: Global,
+}
+
+#[derive(Args, Debug)]
+pub struct Global {
+    /// Say less: errors and the last line only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more: every stage as it starts
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+    /// When to colour messages
+    #[arg(long, global = true, value_enum, default_value_t = When::Auto, value_name = "WHEN")]
+    pub color: When,
+    /// How to print errors and warnings
+    #[arg(long, global = true, value_enum, default_value_t = Style::Human, value_name = "STYLE")]
+    pub diagnostics: Style,
+    /// Treat warnings as errors
+    #[arg(long, global = true, value_enum, value_name = "WHAT")]
+    pub deny: Option<Deny>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum When {
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    /// With the line of the scene and what to do
+    Human,
+    /// One line each: file:line:column: error: ...
+    Short,
+    /// One JSON object a line
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Deny {
+    Warnings,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write a commented scene, and the model it shows, to start from
+    Init {
+        /// Where to write the scene; the model goes to models/ beside it
+        #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
+        scene: PathBuf,
+        /// Overwrite files that exist
+        #[arg(long)]
+        force: bool,
+    },
+    /// Read everything, report every error and warning, write nothing
+    Check {
+        #[command(flatten)]
+        scene: SceneArgs,
+    },
+    /// Build the forest: 3MF, STL, GLB, plan, pictures and report
+    Build {
+        #[command(flatten)]
+        scene: SceneArgs,
+        /// Directory for all files, or one file whose ending picks the format (.3mf .stl .glb .svg .png .json) [default: out/<scene>]
+        #[arg(short, long, value_hint = ValueHint::AnyPath)]
+        output: Option<PathBuf>,
+    },
+    /// Draw only the plan: the forest from above with what every eye sees
+    View {
+        #[command(flatten)]
+        scene: SceneArgs,
+        /// Directory for plan.svg and plan.png, or one .svg or .png file [default: out/<scene>]
+        #[arg(short, long, value_hint = ValueHint::AnyPath)]
+        output: Option<PathBuf>,
+    },
+    /// Render only the pictures: for every eye the model, the forest and the difference
+    Render {
+        #[command(flatten)]
+        scene: SceneArgs,
+        /// Directory; pictures go to its views/ [default: out/<scene>]
+        #[arg(short, long, value_hint = ValueHint::AnyPath)]
+        output: Option<PathBuf>,
+    },
+    /// Check any mesh file for printing: closed, oriented, no self-intersection, one part
+    Inspect {
+        /// STL, 3MF, OBJ or PLY files
+        #[arg(required = true, value_hint = ValueHint::FilePath)]
+        files: Vec<PathBuf>,
+        /// Print the findings as JSON
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print the whole scene language with its defaults
+    Schema,
+    /// Print a completion script for a shell
+    Completions {
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Args, Debug)]
+pub struct SceneArgs {
+    /// The scene
+    #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
+    pub scene: PathBuf,
+    /// Where to look first for model files, by file name [env: PILLARFOREST_MODELS]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub models: Option<PathBuf>,
+    /// Change a value of the scene for this run: pillars[0].height=80, views[front].eye=(0,-300,60), energy=Curvature()
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub sets: Vec<String>,
+    /// Threads to use [default: all cores]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Print how long every stage took
+    #[arg(long)]
+    pub timings: bool,
+}
+
+/// Parses the arguments and runs the command.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    ExitCode::from(commands::run(&cli))
+}

@@ -1,0 +1,117 @@
+//! Writing: whole sets of files, complete or not at all.
+//!
+//! Everything is written to a temporary directory beside the target first and then renamed into place, so that an
+//! interrupted or failed run never leaves a torn file.
+
+use pillarforest::compile::OutputFile;
+use pillarforest::diag::Diagnostic;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// Where a run writes to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// All files into a directory.
+    Directory(PathBuf),
+    /// The one file of a run with this path's ending, to this path.
+    File(PathBuf),
+}
+
+/// File endings that ask for one file rather than a directory.
+const ENDINGS: [&str; 6] = ["3mf", "stl", "glb", "svg", "png", "json"];
+
+impl Target {
+    /// What `-o` means, by default `out/<scene>`; checked as far as it can be before any work.
+    ///
+    /// # Errors
+    /// The target cannot be written: a file in the way, an unknown ending, no such place.
+    pub fn new(output: Option<&Path>, scene: &Path, allowed: &[&str]) -> Result<Self, Diagnostic> {
+        let stem = scene.file_stem().unwrap_or("scene".as_ref());
+        let path = output.map_or_else(|| Path::new("out").join(stem), Path::to_path_buf);
+        let fail = |why: String| Diagnostic::error(format!("cannot write to \"{}\": {why}", path.display()));
+        let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let target = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {
+            if !allowed.contains(&ending.as_str()) {
+                return Err(fail(format!("this command makes no .{ending} file; it makes {}", allowed.join(", "))));
+            }
+            Target::File(path.clone())
+        } else {
+            if path.exists() && !path.is_dir() {
+                return Err(fail("it is a file, not a directory".into()));
+            }
+            Target::Directory(path.clone())
+        };
+        let ancestor = path.ancestors().skip(1).find(|a| a.as_os_str().is_empty() || a.exists());
+        match ancestor {
+            Some(a) if !a.as_os_str().is_empty() && !a.is_dir() => Err(fail(format!("\"{}\" is a file", a.display()))),
+            _ => Ok(target),
+        }
+    }
+
+    /// Writes the files; gives the path to name in the last line.
+    ///
+    /// # Errors
+    /// What the system said. No file is torn even then.
+    pub fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
+        match self {
+            Target::Directory(directory) => {
+                let fail = |e: std::io::Error| Diagnostic::error(format!("cannot write to \"{}\": {e}", directory.display()));
+                check_names(files)?;
+                into_directory(directory, files).map_err(fail)?;
+                Ok(files.first().map_or(directory.clone(), |f| directory.join(&f.path)))
+            }
+            Target::File(path) => {
+                let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+                let matches = |f: &&OutputFile| Path::new(&f.path).extension() == Some(&ending);
+                let file = files.iter().find(matches).ok_or_else(|| {
+                    Diagnostic::error(format!("the run made no .{} file", ending.to_string_lossy()))
+                        .help("the scene's `output` section may have switched it off")
+                })?;
+                into_file(path, &file.bytes)
+                    .map_err(|e| Diagnostic::error(format!("cannot write \"{}\": {e}", path.display())))?;
+                Ok(path.clone())
+            }
+        }
+    }
+}
+
+/// Output names come from the program; a slip there must not write elsewhere.
+fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
+    let stays = |f: &&OutputFile| Path::new(&f.path).components().all(|c| matches!(c, Component::Normal(_)));
+    match files.iter().find(|f| !stays(f)) {
+        Some(file) => Err(Diagnostic::error(format!("output name \"{}\" leaves the output directory", file.path))),
+        None => Ok(()),
+    }
+}
+
+fn into_directory(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
+    let parent = parent(directory);
+    fs::create_dir_all(parent)?;
+    let staging = tempfile::Builder::new().prefix(".pillarforest-").tempdir_in(parent)?;
+    for file in files {
+        let path = staging.path().join(&file.path);
+        fs::create_dir_all(self::parent(&path))?;
+        fs::write(&path, &file.bytes)?;
+    }
+    // Only now is the target touched, by renames on one file system; other files in it stay.
+    for file in files {
+        let path = directory.join(&file.path);
+        fs::create_dir_all(self::parent(&path))?;
+        fs::rename(staging.path().join(&file.path), &path)?;
+    }
+    staging.close()
+}
+
+/// Writes one file by way of a temporary one beside it.
+pub fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    fs::create_dir_all(parent(path))?;
+    let staging = tempfile::Builder::new().prefix(".pillarforest-").tempdir_in(parent(path))?;
+    let staged = staging.path().join("file");
+    fs::write(&staged, bytes)?;
+    fs::rename(&staged, path)?;
+    staging.close()
+}
+
+fn parent(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

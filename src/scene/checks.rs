@@ -1,0 +1,243 @@
+//! Rules that join several values: pillars that overlap, eyes in the wrong place, forests no printer can make.
+
+use super::defaults;
+use super::reader::{Reader, Span, error_at, short, warning_at};
+use super::shapes;
+use crate::diag::Diagnostic;
+use crate::scene::Printer;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// A pillar as the checks see it.
+pub struct Standing {
+    pub name: String,
+    pub axis: DVec2,
+    pub profile: Vec<DVec2>,
+    /// Top, millimetres above the base's top.
+    pub height: f64,
+    /// Largest distance of the profile from the axis.
+    pub reach: f64,
+    pub round: bool,
+    pub span: Span,
+}
+
+/// The base as the checks see it.
+pub struct Slab {
+    pub outline: Vec<DVec2>,
+    pub thickness: f64,
+    pub span: Option<Span>,
+}
+
+/// An eye as the checks see it.
+pub struct Eye {
+    pub view: String,
+    pub at: DVec3,
+    pub look_at: Option<DVec3>,
+    pub span: Span,
+    pub look_span: Option<Span>,
+}
+
+/// All of them.
+pub fn all(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, eyes: &[Eye], printer: &Printer) {
+    gaps(reader, pillars, printer);
+    slimness(reader, pillars, printer);
+    if let Some(slab) = base {
+        footing(reader, pillars, slab);
+    }
+    plate(reader, pillars, base, printer);
+    eye_pairs(reader, eyes);
+    for eye in eyes {
+        let problem = directions(eye).or_else(|| place(eye, pillars, base, reader.unit_name));
+        reader.problems.extend(problem);
+    }
+}
+
+/// Overlapping pillars are errors, gaps that fuse on the printer warnings: the first of each pair of places in the text.
+fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+    let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
+    let mut worst: BTreeMap<(usize, usize, bool), (usize, usize, f64, usize)> = BTreeMap::new();
+    for (i, j) in neighbours(pillars, narrow) {
+        let (a, b) = (&pillars[i], &pillars[j]);
+        let gap = match (a.round, b.round) {
+            (true, true) => a.axis.distance(b.axis) - a.reach - b.reach,
+            _ => shapes::gap(&a.profile, &b.profile),
+        };
+        if gap < narrow {
+            let key = (a.span.start, b.span.start, gap <= 0.0);
+            let entry = worst.entry(key).or_insert((i, j, gap, 0));
+            entry.3 += 1;
+            if gap < entry.2 {
+                (entry.0, entry.1, entry.2) = (i, j, gap);
+            }
+        }
+    }
+    for ((_, _, overlap), (i, j, gap, count)) in worst.into_iter().take(20) {
+        let problem = gap_problem(&pillars[i], &pillars[j], gap, overlap, count, narrow);
+        reader.problems.push(problem);
+    }
+}
+
+fn gap_problem(a: &Standing, b: &Standing, gap: f64, overlap: bool, count: usize, narrow: f64) -> Diagnostic {
+    let more = if count > 1 { format!(" (and {} more pairs)", count - 1) } else { String::new() };
+    let apart = short(a.axis.distance(b.axis));
+    if overlap {
+        let radii = if a.round && b.round { format!("radius {} mm and {} mm but ", short(a.reach), short(b.reach)) } else { String::new() };
+        let label = if gap < 0.0 { format!("overlaps {} by {} mm", a.name, short(-gap)) } else { format!("touches or overlaps {}", a.name) };
+        let wanted = a.reach + b.reach + narrow;
+        return error_at(&b.span, format!("pillars overlap: {radii}centres {apart} mm apart{more}"))
+            .label(label)
+            .help(format!("put the centres at least {} mm apart, or make the pillars thinner", short(wanted)));
+    }
+    warning_at(&b.span, format!("the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed", a.name, b.name, short(gap)))
+        .help(format!("leave at least {narrow} mm, or change `printer: (nozzle: ...)`"))
+}
+
+/// Pairs of pillars whose circles come nearer than `margin`, in order: a sweep over x.
+fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
+    let mut order: Vec<usize> = (0..pillars.len()).collect();
+    order.sort_by(|&a, &b| pillars[a].axis.x.total_cmp(&pillars[b].axis.x).then(a.cmp(&b)));
+    let widest = pillars.iter().map(|p| p.reach).fold(0.0, f64::max);
+    let mut pairs = Vec::new();
+    for (k, &i) in order.iter().enumerate() {
+        for &j in &order[k + 1..] {
+            if pillars[j].axis.x - pillars[i].axis.x > pillars[i].reach + widest + margin {
+                break;
+            }
+            if pillars[i].axis.distance(pillars[j].axis) < pillars[i].reach + pillars[j].reach + margin {
+                pairs.push((i.min(j), i.max(j)));
+            }
+            // A heap of pillars in one spot would make this quadratic; what is found by then is enough.
+            if pairs.len() > 200_000 {
+                return pairs;
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Pillars too thin for the nozzle or too slim to stand; once per place in the text.
+fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+    let thin = defaults::THIN_WALL_NOZZLES * printer.nozzle;
+    let mut seen = std::collections::BTreeSet::new();
+    for pillar in pillars {
+        let width = shapes::narrowest(&pillar.profile);
+        if width < thin && seen.insert((pillar.span.start, 0)) {
+            reader.problems.push(
+                warning_at(&pillar.span, format!("{} is {} mm thin: walls below {} mm vanish or break with a {} mm nozzle", pillar.name, short(width), short(thin), printer.nozzle))
+                    .help(format!("make it at least {} mm wide, or change `printer: (nozzle: ...)`", short(thin))),
+            );
+        }
+        let slim = pillar.height / width;
+        if slim > defaults::SLIMMEST && seen.insert((pillar.span.start, 1)) {
+            reader.problems.push(
+                warning_at(&pillar.span, format!("{} is {} times as high as it is wide: it will break or wobble while printed", pillar.name, short(slim.round())))
+                    .help(format!("keep it below {} times: thicker or lower pillars", defaults::SLIMMEST)),
+            );
+        }
+    }
+}
+
+/// Every pillar must stand on the base.
+fn footing(reader: &mut Reader, pillars: &[Standing], slab: &Slab) {
+    let mut seen = std::collections::BTreeSet::new();
+    for pillar in pillars {
+        let on = pillar.profile.iter().filter(|p| shapes::contains(&slab.outline, **p)).count();
+        if on == pillar.profile.len() || !seen.insert((pillar.span.start, on == 0)) {
+            continue;
+        }
+        let where_ = format!("({}, {})", short(pillar.axis.x), short(pillar.axis.y));
+        let help = "enlarge the base, leave its size out (it then fits all pillars), or move the pillar";
+        reader.problems.push(if on == 0 {
+            error_at(&pillar.span, format!("{} at {where_} stands beside the base", pillar.name)).help(help)
+        } else {
+            warning_at(&pillar.span, format!("{} at {where_} hangs over the edge of the base", pillar.name)).help(help)
+        });
+    }
+}
+
+/// Size of the whole forest against the printer's bed, number of pillars against patience.
+fn plate(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, printer: &Printer) {
+    let points = pillars.iter().flat_map(|p| &p.profile).chain(base.iter().flat_map(|b| &b.outline));
+    let bounds = points.fold(None, |b: Option<(DVec2, DVec2)>, p| Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p)))));
+    let Some((lo, hi)) = bounds else { return };
+    let Some(tallest) = pillars.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else { return };
+    let height = tallest.height + base.map_or(0.0, |b| b.thickness);
+    let (size, [x, y, z]) = (hi - lo, printer.bed);
+    let fits = (size.x <= x && size.y <= y) || (size.x <= y && size.y <= x);
+    let span = base.and_then(|b| b.span.clone()).unwrap_or(tallest.span.clone());
+    if !fits {
+        reader.problems.push(
+            warning_at(&span, format!("the forest is {} x {} mm, larger than the printer's bed of {x} x {y} mm", short(size.x), short(size.y)))
+                .help("give the size of your printer: `printer: (bed: (300, 300, 300))`, or print the forest in tiles"),
+        );
+    }
+    if height > z {
+        reader.problems.push(
+            warning_at(&tallest.span, format!("the forest is {} mm tall, taller than the printer's {z} mm", short(height)))
+                .help("lower the pillars, or print them in pieces"),
+        );
+    }
+    if pillars.len() as u64 > defaults::MANY_PILLARS {
+        reader.problems.push(
+            warning_at(&span, format!("{} pillars: slicers take hours for more than about {}", pillars.len(), defaults::MANY_PILLARS))
+                .help("fewer, thicker pillars show models as well"),
+        );
+    }
+}
+
+/// Two views cannot share an eye.
+fn eye_pairs(reader: &mut Reader, eyes: &[Eye]) {
+    for (j, b) in eyes.iter().enumerate() {
+        if let Some(a) = eyes[..j].iter().find(|a| a.at.distance(b.at) < 1.0) {
+            reader.problems.push(
+                error_at(&b.span, format!("views \"{}\" and \"{}\" look from the same place: one eye cannot see two pictures", a.view, b.view))
+                    .label(format!("also the eye of \"{}\"", a.view))
+                    .help("move one eye, or show both models in one view: `models: [\"a\", \"b\"]`"),
+            );
+        }
+    }
+}
+
+/// An eye must look somewhere, and not straight down.
+fn directions(eye: &Eye) -> Option<Diagnostic> {
+    let gaze = eye.look_at? - eye.at;
+    let span = eye.look_span.as_ref().unwrap_or(&eye.span);
+    if gaze.length() < 1e-3 {
+        return Some(error_at(span, format!("view \"{}\" looks at its own eye: it has no direction", eye.view)).help("`look_at` is a point in the middle of what is seen"));
+    }
+    if gaze.truncate().length() < 0.05 * gaze.z.abs() {
+        return Some(
+            error_at(&eye.span, format!("view \"{}\" looks straight {}: pillars show nothing but their ends", eye.view, if gaze.z < 0.0 { "down" } else { "up" }))
+                .help("put the eye to the side of the forest"),
+        );
+    }
+    None
+}
+
+/// An eye must stand in the open, at a distance, above the base.
+fn place(eye: &Eye, pillars: &[Standing], base: Option<&Slab>, unit: &str) -> Option<Diagnostic> {
+    let ground = eye.at.truncate();
+    let thickness = base.map_or(0.0, |b| b.thickness);
+    if let Some(slab) = base {
+        if eye.at.z < -thickness {
+            return Some(error_at(&eye.span, format!("the eye of view \"{}\" is below the base: it sees only the underside", eye.view)).help("z points up; the top of the base is z = 0"));
+        }
+        if eye.at.z <= 0.0 && shapes::contains(&slab.outline, ground) {
+            return Some(error_at(&eye.span, format!("the eye of view \"{}\" is inside the base", eye.view)));
+        }
+    }
+    let distance = |p: &Standing| shapes::gap_to_point(&p.profile, ground);
+    let nearest = pillars.iter().map(|p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let tops = pillars.iter().map(|p| p.height).fold(0.0, f64::max);
+    if eye.at.z > tops || nearest.0 > 20.0 {
+        return None;
+    }
+    let where_ = if nearest.0 <= 0.0 { "inside".to_string() } else { format!("{} mm from", short(nearest.0)) };
+    let mut problem = error_at(&eye.span, format!("the eye of view \"{}\" is {where_} pillar {}", eye.view, nearest.1.name))
+        .label("an eye stands outside the forest, some hundred mm away");
+    if eye.at.length() < 20.0 {
+        problem = problem.help(format!("eyes are in {unit} like the rest of the scene: did you mean metres? Then write them times 1000"));
+    }
+    Some(problem)
+}

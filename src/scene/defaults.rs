@@ -1,0 +1,79 @@
+//! Every default of the scene language, and every limit. Lengths in millimetres, angles in degrees.
+
+use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
+use crate::scene::{Output, Printer};
+use crate::support::{Datum, Layer};
+
+/// Title of a scene that has none.
+pub const TITLE: &str = "Pillar forest";
+
+/// Pillars: height above the base's top.
+pub const PILLAR_HEIGHT: f64 = 90.0;
+/// Facets of a round pillar: at radius 4 mm the outline stays within 0.005 mm of the circle, far below a printer's step.
+pub const ROUND_FACETS: u32 = 64;
+
+/// Where reliefs may lie if the scene does not say: the slab that kept normals best on 8 mm pillars.
+pub const LAYER: Layer = Layer { datum: Datum::AxisPlane, front: 5.0, back: 2.0, core: 1.0 };
+
+/// Base: slab thickness, the room it leaves around the outermost pillar, facets of a disc.
+pub const BASE_THICKNESS: f64 = 5.0;
+pub const BASE_MARGIN: f64 = 5.0;
+pub const BASE_FACETS: u32 = 128;
+/// How far pillars are sunk into the base, so that the union is a real overlap; half the base's thickness if that is less.
+pub const SINK: f64 = 1.0;
+
+/// Model axes in the file: which way is up, which way is the side to be seen.
+pub const UP: &str = "z";
+pub const FRONT: &str = "-y";
+
+/// What is minimised: the energy that keeps normals better under the same bounds (see README).
+pub const NORMAL: NormalOptions = NormalOptions { weight: FaceWeight::Area, ordering: true };
+pub const CURVATURE: CurvatureOptions = CurvatureOptions { hidden_weight: 0.1, ordering: true };
+pub const ENERGY: Energy = Energy::Normal(NORMAL);
+
+pub const PRINTER: Printer = Printer { nozzle: 0.4, bed: [256.0, 256.0, 256.0] };
+
+pub const OUTPUT: Output = Output {
+    forest_3mf: true,
+    forest_stl: true,
+    forest_glb: true,
+    plan: true,
+    views: true,
+    picture_size: 640,
+    plan_width: 2000,
+};
+
+/// View colours in order of appearance: Okabe & Ito's palette, which colour-blind people can tell apart
+/// (its black and yellow left out: they vanish on plans).
+pub const PALETTE: [[u8; 3]; 6] = [
+    [0xd5, 0x5e, 0x00],
+    [0x00, 0x72, 0xb2],
+    [0x00, 0x9e, 0x73],
+    [0xcc, 0x79, 0xa7],
+    [0xe6, 0x9f, 0x00],
+    [0x56, 0xb4, 0xe9],
+];
+
+/// Largest coordinate or length: ten metres. Beyond it something is in the wrong unit.
+pub const LARGEST: f64 = 10_000.0;
+/// Scene text, bytes.
+pub const LONGEST_TEXT: usize = 8 << 20;
+/// Title and names, characters.
+pub const LONGEST_TITLE: usize = 200;
+pub const LONGEST_NAME: usize = 64;
+pub const MOST_VIEWS: usize = 32;
+pub const MOST_MODELS: usize = 256;
+/// More pillars than this are refused before anything is allocated, more than the second take slicers very long.
+pub const MOST_PILLARS: u64 = 20_000;
+pub const MANY_PILLARS: u64 = 1_500;
+pub const MOST_POINTS: usize = 2_000;
+pub const FACETS: std::ops::RangeInclusive<u32> = 8..=512;
+pub const PICTURE_SIZES: std::ops::RangeInclusive<u32> = 64..=4096;
+pub const PLAN_WIDTHS: std::ops::RangeInclusive<u32> = 400..=8000;
+
+/// Thinner walls than this many nozzle widths print badly (0.9 mm at 0.4 mm).
+pub const THIN_WALL_NOZZLES: f64 = 2.25;
+/// Narrower gaps than this many nozzle widths fuse (0.2 mm at 0.4 mm).
+pub const NARROW_GAP_NOZZLES: f64 = 0.5;
+/// Slimmer pillars than this height to width break on the printer.
+pub const SLIMMEST: f64 = 30.0;

@@ -1,0 +1,175 @@
+//! The scene as written: a mirror of the RON text without defaults, units or meaning.
+//!
+//! Every field may be missing and every value may be wrong on its own; `resolve` decides. Unknown fields are errors.
+//! What the fields mean is told by `schema`, which a test compares with these types.
+
+use super::spanned::{Field, Spanned};
+use serde::Deserialize;
+
+/// What a value should have been, for error messages.
+pub trait Wanted {
+    const WANTED: &'static str;
+}
+
+/// A list whose items fail one by one.
+pub type List<T> = Vec<Spanned<T>>;
+
+macro_rules! wanted {
+    ($($kind:ty => $text:expr;)*) => { $(impl Wanted for $kind { const WANTED: &'static str = $text; })* };
+}
+
+/// Declares structs of optional fields and enums, all of which refuse what they do not know.
+macro_rules! raw {
+    ($($(#[$doc:meta])* struct $name:ident, $wanted:literal { $($field:ident: $kind:ty,)* })*) => { $(
+        $(#[$doc])*
+        #[derive(Debug, Default, Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct $name { $(pub $field: Field<$kind>,)* }
+        wanted! { $name => $wanted; }
+    )* };
+}
+
+raw! {
+    struct RawScene, "a scene `( title: ..., models: [...], views: [...], pillars: [...] )`" {
+        title: String,
+        units: RawUnit,
+        models: List<RawModel>,
+        views: List<RawView>,
+        pillars: List<RawPillars>,
+        base: RawBase,
+        depth: RawDepth,
+        energy: RawEnergy,
+        printer: RawPrinter,
+        output: RawOutput,
+    }
+    struct RawModel, "a model `(name: \"owl\", file: \"owl.ply\", place: Fit(height: 60))`" {
+        name: String,
+        file: String,
+        units: RawUnit,
+        place: RawPlace,
+    }
+    struct RawFit, "`Fit(height: 60)`" {
+        height: f64,
+        width: f64,
+        largest: f64,
+        up: String,
+        front: String,
+        facing: [f64; 2],
+        spin: f64,
+        at: [f64; 3],
+    }
+    struct RawView, "a view `(name: \"front\", eye: (0, -300, 60), models: [\"owl\"])`" {
+        name: String,
+        eye: [f64; 3],
+        look_at: [f64; 3],
+        models: List<String>,
+        colour: String,
+    }
+    struct RawPillars, "pillars `(shape: Round(radius: 4), height: 90, places: At([(0, 0)]))`" {
+        name: String,
+        shape: RawShape,
+        height: f64,
+        places: RawPlaces,
+        depth: RawDepth,
+    }
+    struct RawRound, "`Round(radius: 4)`" { radius: f64, facets: u32, }
+    struct RawPolygon, "`Polygon(sides: 6, radius: 4)`" { sides: u32, radius: f64, turn: f64, }
+    struct RawRectangle, "`Rectangle(width: 8, depth: 5)`" { width: f64, depth: f64, turn: f64, }
+    struct RawProfile, "`Profile(points: [(0, 0), (8, 0), (4, 6)])`" { points: List<[f64; 2]>, turn: f64, }
+    struct RawGrid, "`Grid(columns: 4, rows: 3, pitch: 15)`" {
+        columns: u32, rows: u32, pitch: f64, pitch_y: f64, centre: [f64; 2], turn: f64,
+    }
+    struct RawRing, "`Ring(count: 12, radius: 40)`" { count: u32, radius: f64, centre: [f64; 2], turn: f64, }
+    struct RawHex, "`Hex(rings: 2, pitch: 15)`" { rings: u32, pitch: f64, centre: [f64; 2], turn: f64, }
+    struct RawDisc, "`Disc(radius: 72, thickness: 5)`" {
+        radius: f64, thickness: f64, margin: f64, centre: [f64; 2], facets: u32,
+    }
+    struct RawSlab, "`Rectangle(width: 150, depth: 100, thickness: 5)`" {
+        width: f64, depth: f64, thickness: f64, margin: f64, centre: [f64; 2],
+    }
+    struct RawDepth, "a depth layer `(front: 5, back: 2)`" { from: RawDatum, front: f64, back: f64, core: f64, }
+    struct RawNormal, "`Normal(weight: Area)`" { weight: RawWeight, ordering: bool, }
+    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" { hidden_weight: f64, ordering: bool, }
+    struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], }
+    struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
+        forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, picture_size: u32, plan_width: u32,
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[allow(non_camel_case_types)] // as written in scenes
+pub enum RawUnit {
+    mm,
+    cm,
+    m,
+    inch,
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawPlace {
+    Fit(RawFit),
+    Matrix(List<[f64; 4]>),
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawShape {
+    Round(RawRound),
+    Polygon(RawPolygon),
+    Rectangle(RawRectangle),
+    Profile(RawProfile),
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawPlaces {
+    At(List<[f64; 2]>),
+    Grid(RawGrid),
+    Ring(RawRing),
+    Hex(RawHex),
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawBase {
+    Disc(RawDisc),
+    Rectangle(RawSlab),
+    None,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawDatum {
+    Axis,
+    Surface,
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawEnergy {
+    Normal(RawNormal),
+    Curvature(RawCurvature),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawWeight {
+    Area,
+    SolidAngle,
+}
+
+wanted! {
+    String => "text in straight double quotes";
+    f64 => "a number";
+    u32 => "a whole number";
+    bool => "true or false";
+    [f64; 2] => "a point `(x, y)`";
+    [f64; 3] => "a point `(x, y, z)`";
+    [f64; 4] => "a row of four numbers `(a, b, c, d)`";
+    RawUnit => "mm, cm, m or inch";
+    RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
+    RawShape => "`Round(...)`, `Polygon(...)`, `Rectangle(...)` or `Profile(...)`";
+    RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
+    RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";
+    RawDatum => "Axis or Surface";
+    RawEnergy => "`Normal(...)` or `Curvature(...)`";
+    RawWeight => "Area or SolidAngle";
+}
+
+impl<T> Wanted for List<T> {
+    const WANTED: &'static str = "a list `[...]`";
+}

@@ -1,0 +1,273 @@
+//! The whole scene language on one page, for people; a test holds it against the types that read scenes.
+
+use super::defaults;
+use crate::mimic::{Energy, FaceWeight};
+use crate::support::Datum;
+use std::fmt::Write;
+
+/// One struct or choice of the language.
+pub struct Section {
+    /// As it is written: `Round(...)`, or a plain name for a struct without one.
+    pub title: &'static str,
+    pub about: &'static str,
+    pub fields: Vec<FieldDoc>,
+}
+
+/// One field: what it takes, what it is if left out, what it means.
+pub struct FieldDoc {
+    pub name: &'static str,
+    pub kind: &'static str,
+    /// `required` if there is no default.
+    pub default: String,
+    pub doc: &'static str,
+}
+
+const INTRO: &str = "\
+// The scene language of pillarforest. A scene is one RON value: ( field: value, ... ), comments as in this text.
+// z points up; the top of the base is z = 0. Lengths are in `units`, angles in degrees counter-clockwise from above.
+// Lengths given as defaults are millimetres whatever the units.
+";
+
+fn field(name: &'static str, kind: &'static str, default: impl ToString, doc: &'static str) -> FieldDoc {
+    FieldDoc { name, kind, default: default.to_string(), doc }
+}
+
+const REQUIRED: &str = "required";
+
+/// The language as text.
+pub fn schema() -> String {
+    let mut out = INTRO.to_string();
+    for section in sections() {
+        // Writing to a String cannot fail.
+        let _ = write!(out, "\n{}\n    // {}\n", section.title, section.about);
+        let width = section.fields.iter().map(|f| f.name.len() + f.kind.len()).max().unwrap_or(0);
+        for f in &section.fields {
+            let pad = " ".repeat(width - f.name.len() - f.kind.len());
+            let _ = writeln!(out, "    {}: {}{pad}  [{}]  {}", f.name, f.kind, f.default, f.doc);
+        }
+    }
+    out
+}
+
+/// All sections in reading order.
+pub fn sections() -> Vec<Section> {
+    [scene_sections(), pillar_sections(), place_sections(), other_sections()].into_iter().flatten().collect()
+}
+
+fn section(title: &'static str, about: &'static str, fields: Vec<FieldDoc>) -> Section {
+    Section { title, about, fields }
+}
+
+fn scene_sections() -> Vec<Section> {
+    vec![
+        section("scene", "The whole file.", vec![
+            field("title", "text", format!("{:?}", defaults::TITLE), "for people: report, 3MF, plan"),
+            field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
+            field("models", "[model, ...]", REQUIRED, "what is to be seen"),
+            field("views", "[view, ...]", REQUIRED, "from where"),
+            field("pillars", "[pillars, ...]", REQUIRED, "what carries it"),
+            field("base", "Disc(...) | Rectangle(...) | None", "Disc()", "what the pillars stand on"),
+            field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
+            field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
+            field("printer", "printer", "see printer", "what the checks have in mind"),
+            field("output", "output", "see output", "which files are written"),
+        ]),
+        section("model", "A mesh file and where it stands.", vec![
+            field("name", "text", REQUIRED, "what views call it"),
+            field("file", "text", REQUIRED, "OBJ, STL or PLY in the scene's folder or below, or by name in --models DIR"),
+            field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
+            field("place", "Fit(...) | Matrix(...)", "Fit()", "Matrix([(a, b, c, d), (..), (..), (..)]): 4 x 4 by rows, from file coordinates to mm"),
+        ]),
+        section("Fit(...)", "Upright, turned to the eye, at one size: give height, width or largest, or none.", vec![
+            field("height", "length", "as the file", "scaled to this height"),
+            field("width", "length", "as the file", "scaled to this width, left to right as the eye sees it"),
+            field("largest", "length", "as the file", "scaled until the longest side is this long"),
+            field("up", "text", format!("{:?}", defaults::UP), "axis of the file that points up: \"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\""),
+            field("front", "text", format!("{:?}", defaults::FRONT), "axis of the file that looks out of the side to be seen"),
+            field("facing", "(x, y)", "to the eye", "where the front looks, as a direction in the ground plane"),
+            field("spin", "degrees", "0", "turned on by this much about the vertical"),
+            field("at", "(x, y, z)", "(0, 0, 0)", "where the middle of the model's underside goes"),
+        ]),
+        section("view", "One eye and what it sees.", vec![
+            field("name", "text", REQUIRED, "also the name of its picture: letters, digits, - and _"),
+            field("eye", "(x, y, z)", REQUIRED, "where the eye is"),
+            field("look_at", "(x, y, z)", "middle of its models", "centre of the view"),
+            field("models", "[text, ...]", REQUIRED, "names of the models it sees"),
+            field("colour", "text", "a colour-blind-safe palette", "\"#rrggbb\" for its reliefs, plan and legend"),
+        ]),
+    ]
+}
+
+fn pillar_sections() -> Vec<Section> {
+    let facets = defaults::ROUND_FACETS;
+    vec![
+        section("pillars", "Pillars of one shape; a scene may have several such entries.", vec![
+            field("name", "text", "\"p\"", "pillars are numbered p1, p2, ... or name-1, name-2, ..."),
+            field("shape", "Round(...) | Polygon(...) | Rectangle(...) | Profile(...)", REQUIRED, "cross-section"),
+            field("height", "length", format!("{} mm", defaults::PILLAR_HEIGHT), "above the base"),
+            field("places", "At([(x, y), ...]) | Grid(...) | Ring(...) | Hex(...)", REQUIRED, "where their axes stand"),
+            field("depth", "depth", "the scene's", "fields given here replace the scene's"),
+        ]),
+        section("Round(...)", "A circle, printed as a regular polygon inside it.", vec![
+            field("radius", "length", REQUIRED, "of the circle"),
+            field("facets", "count", facets, "8 to 512"),
+        ]),
+        section("Polygon(...)", "A regular polygon.", vec![
+            field("sides", "count", REQUIRED, "3 to 512"),
+            field("radius", "length", REQUIRED, "from the axis to a corner"),
+            field("turn", "degrees", "0", "direction of the first corner"),
+        ]),
+        section("Rectangle(...) as a pillar", "A rectangle around the axis.", vec![
+            field("width", "length", REQUIRED, "along x before the turn"),
+            field("depth", "length", REQUIRED, "along y before the turn"),
+            field("turn", "degrees", "0", "about the axis"),
+        ]),
+        section("Profile(...)", "Any simple polygon.", vec![
+            field("points", "[(x, y), ...]", REQUIRED, "corners in order, relative to the axis"),
+            field("turn", "degrees", "0", "about the axis"),
+        ]),
+        section("depth", "The room of the reliefs.", vec![
+            field("from", "Axis | Surface", datum(), "measured from the upright plane through the axis that faces the eye, or from the surface"),
+            field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
+            field("back", "length", format!("{} mm", defaults::LAYER.back), "away from the eye"),
+            field("core", "length", format!("{} mm", defaults::LAYER.core), "what must be left of the pillar behind it"),
+        ]),
+    ]
+}
+
+fn place_sections() -> Vec<Section> {
+    let centre = || field("centre", "(x, y)", "(0, 0)", "middle of the arrangement");
+    vec![
+        section("Grid(...)", "Rows and columns.", vec![
+            field("columns", "count", REQUIRED, "along x"),
+            field("rows", "count", REQUIRED, "along y"),
+            field("pitch", "length", REQUIRED, "between axes"),
+            field("pitch_y", "length", "pitch", "between rows, if different"),
+            centre(),
+            field("turn", "degrees", "0", "about the centre"),
+        ]),
+        section("Ring(...)", "Evenly on a circle.", vec![
+            field("count", "count", REQUIRED, "number of pillars"),
+            field("radius", "length", REQUIRED, "of the circle through the axes"),
+            centre(),
+            field("turn", "degrees", "0", "direction of the first pillar"),
+        ]),
+        section("Hex(...)", "A honeycomb: one in the middle, hexagons around it.", vec![
+            field("rings", "count", REQUIRED, "0 for one pillar, 1 for 7, 2 for 19, ..."),
+            field("pitch", "length", REQUIRED, "between neighbours"),
+            centre(),
+            field("turn", "degrees", "0", "about the centre"),
+        ]),
+        section("Disc(...)", "A round base; its top is z = 0.", vec![
+            field("radius", "length", "fits all pillars", "of the disc"),
+            field("thickness", "length", format!("{} mm", defaults::BASE_THICKNESS), "downwards from z = 0"),
+            field("margin", "length", format!("{} mm", defaults::BASE_MARGIN), "beyond the pillars, if no radius is given"),
+            field("centre", "(x, y)", "middle of the pillars", "of the disc"),
+            field("facets", "count", defaults::BASE_FACETS, "8 to 512"),
+        ]),
+        section("Rectangle(...) as base", "A rectangular base; its top is z = 0.", vec![
+            field("width", "length", "fits all pillars", "along x"),
+            field("depth", "length", "fits all pillars", "along y"),
+            field("thickness", "length", format!("{} mm", defaults::BASE_THICKNESS), "downwards from z = 0"),
+            field("margin", "length", format!("{} mm", defaults::BASE_MARGIN), "beyond the pillars, where no size is given"),
+            field("centre", "(x, y)", "middle of the pillars", "of the rectangle"),
+        ]),
+    ]
+}
+
+fn other_sections() -> Vec<Section> {
+    let (printer, output) = (defaults::PRINTER, defaults::OUTPUT);
+    vec![
+        section("Normal(...)", "Keeps the normals the eye sees.", vec![
+            field("weight", "Area | SolidAngle", weight(), "how much a face counts: its area, or what the eye sees of it"),
+            field("ordering", "true | false", defaults::NORMAL.ordering, "what lies in front stays in front"),
+        ]),
+        section("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
+            field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
+            field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
+        ]),
+        section("printer", "Used by warnings only.", vec![
+            field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
+            field("bed", "(x, y, z)", format!("{:?} mm", printer.bed), "largest print"),
+        ]),
+        section("output", "What `build` writes besides report.json.", vec![
+            field("forest_3mf", "true | false", output.forest_3mf, "for slicers: named and coloured objects"),
+            field("forest_stl", "true | false", output.forest_stl, "one closed solid"),
+            field("forest_glb", "true | false", output.forest_glb, "for viewers, with the eyes as cameras"),
+            field("plan", "true | false", output.plan, "plan.svg and plan.png"),
+            field("views", "true | false", output.views, "views/<view>.png"),
+            field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
+            field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
+        ]),
+    ]
+}
+
+fn energy() -> &'static str {
+    match defaults::ENERGY {
+        Energy::Normal(_) => "Normal()",
+        Energy::Curvature(_) => "Curvature()",
+    }
+}
+
+fn datum() -> &'static str {
+    match defaults::LAYER.datum {
+        Datum::AxisPlane => "Axis",
+        Datum::Surface => "Surface",
+    }
+}
+
+fn weight() -> &'static str {
+    match defaults::NORMAL.weight {
+        FaceWeight::Area => "Area",
+        FaceWeight::SolidAngle => "SolidAngle",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sections;
+    use crate::scene::raw;
+    use ron::error::Error;
+    use serde::de::DeserializeOwned;
+
+    /// The field names a type takes, as serde tells them to whoever asks for an unknown one.
+    fn fields_of<T: DeserializeOwned>() -> Vec<&'static str> {
+        let error = crate::scene::spanned::options().from_str::<T>("(no_such_field: 0)").err();
+        match error.map(|e| e.code) {
+            Some(Error::NoSuchStructField { expected, .. }) => expected.to_vec(),
+            other => panic!("not a struct that denies unknown fields: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn every_field_is_documented_and_nothing_else() {
+        let types = [
+            ("scene", fields_of::<raw::RawScene>()),
+            ("model", fields_of::<raw::RawModel>()),
+            ("Fit(...)", fields_of::<raw::RawFit>()),
+            ("view", fields_of::<raw::RawView>()),
+            ("pillars", fields_of::<raw::RawPillars>()),
+            ("Round(...)", fields_of::<raw::RawRound>()),
+            ("Polygon(...)", fields_of::<raw::RawPolygon>()),
+            ("Rectangle(...) as a pillar", fields_of::<raw::RawRectangle>()),
+            ("Profile(...)", fields_of::<raw::RawProfile>()),
+            ("depth", fields_of::<raw::RawDepth>()),
+            ("Grid(...)", fields_of::<raw::RawGrid>()),
+            ("Ring(...)", fields_of::<raw::RawRing>()),
+            ("Hex(...)", fields_of::<raw::RawHex>()),
+            ("Disc(...)", fields_of::<raw::RawDisc>()),
+            ("Rectangle(...) as base", fields_of::<raw::RawSlab>()),
+            ("Normal(...)", fields_of::<raw::RawNormal>()),
+            ("Curvature(...)", fields_of::<raw::RawCurvature>()),
+            ("printer", fields_of::<raw::RawPrinter>()),
+            ("output", fields_of::<raw::RawOutput>()),
+        ];
+        let documented: Vec<(&str, Vec<&str>)> =
+            sections().iter().map(|s| (s.title, s.fields.iter().map(|f| f.name).collect())).collect();
+        assert_eq!(documented.len(), types.len());
+        for (title, fields) in types {
+            let found = documented.iter().find(|(t, _)| *t == title).expect(title);
+            assert_eq!(found.1, fields, "fields of {title}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Outlines in the ground plane and the upright prisms over them.
+
+use crate::geom::{orient, polygon_area, segment_crossing};
+use crate::mesh::TriMesh;
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+
+/// A regular polygon of `sides` corners at `radius` around the origin, the first at angle `turn` (radians), counter-clockwise.
+pub fn regular(sides: u32, radius: f64, turn: f64) -> Vec<DVec2> {
+    (0..sides).map(|i| radius * DVec2::from_angle(turn + TAU * f64::from(i) / f64::from(sides))).collect()
+}
+
+/// A rectangle around the origin, turned by `turn` radians, counter-clockwise.
+pub fn rectangle(width: f64, depth: f64, turn: f64) -> Vec<DVec2> {
+    let half = DVec2::new(width, depth) / 2.0;
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    corners.iter().map(|&(x, y)| DVec2::from_angle(turn).rotate(DVec2::new(x, y) * half)).collect()
+}
+
+/// A polygon made fit: a repeated last point dropped, counter-clockwise.
+///
+/// # Errors
+/// Why it is not a simple polygon of some area.
+pub fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
+    if points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    let n = points.len();
+    if n < 3 {
+        return Err(format!("an outline needs at least 3 different points, found {n}"));
+    }
+    if let Some(i) = (0..n).find(|&i| points[i].distance(points[(i + 1) % n]) < 1e-3) {
+        return Err(format!("points {} and {} of the outline are less than 0.001 mm apart", i + 1, (i + 1) % n + 1));
+    }
+    for i in 0..n {
+        for j in i + 2..n {
+            let next_door = i == 0 && j == n - 1;
+            if !next_door && segment_crossing(points[i], points[i + 1], points[j], points[(j + 1) % n]).is_some() {
+                return Err(format!("the outline crosses itself: its sides {} and {} meet", i + 1, j + 1));
+            }
+        }
+    }
+    let area = polygon_area(&points);
+    if area.abs() < 1e-3 {
+        return Err("the outline has no area".to_string());
+    }
+    if area < 0.0 {
+        points.reverse();
+    }
+    Ok(points)
+}
+
+/// The closed prism over a simple counter-clockwise polygon, outward oriented. Vertices: the ring at the bottom, then the ring at the top.
+pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
+    let n = profile.len() as u32;
+    let ring = |z: f64| profile.iter().map(move |p| DVec3::new(p.x, p.y, z));
+    let vertices = ring(bottom).chain(ring(top)).collect();
+    let mut faces = Vec::new();
+    for [a, b, c] in triangles(profile) {
+        faces.push([c, b, a]);
+        faces.push([a + n, b + n, c + n]);
+    }
+    for i in 0..n {
+        let j = (i + 1) % n;
+        faces.push([i, j, j + n]);
+        faces.push([i, j + n, i + n]);
+    }
+    TriMesh { vertices, faces }
+}
+
+/// Ear clipping with exact orientation; O(n^2) on polygons of at most some thousand points.
+fn triangles(polygon: &[DVec2]) -> Vec<[u32; 3]> {
+    let mut left: Vec<u32> = (0..polygon.len() as u32).collect();
+    let mut list = Vec::with_capacity(polygon.len());
+    let at = |i: u32| polygon[i as usize];
+    while left.len() > 3 {
+        let n = left.len();
+        let ear = (0..n).find(|&i| {
+            let corner = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+            let [a, b, c] = corner.map(at);
+            orient(a, b, c) > 0.0
+                && left.iter().all(|&p| corner.contains(&p) || !inside(a, b, c, at(p)))
+        });
+        // A simple polygon always has an ear; a flat corner is the only other thing that can be left over.
+        let i = ear.or_else(|| (0..n).find(|&i| is_flat(polygon, &left, i))).unwrap_or(0);
+        list.push([left[(i + n - 1) % n], left[i], left[(i + 1) % n]]);
+        left.remove(i);
+    }
+    list.push([left[0], left[1], left[2]]);
+    list
+}
+
+fn is_flat(polygon: &[DVec2], left: &[u32], i: usize) -> bool {
+    let n = left.len();
+    let [a, b, c] = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]].map(|v| polygon[v as usize]);
+    orient(a, b, c) == 0.0
+}
+
+fn inside(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
+    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
+}
+
+/// Whether a point lies in a simple polygon (its edge counts as in, up to rounding).
+pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
+    let n = polygon.len();
+    let crossings = (0..n).filter(|&i| {
+        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+        (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
+    });
+    crossings.count() % 2 == 1
+}
+
+/// Distance between two outlines: 0 if they touch or one holds the other.
+pub fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    if contains(a, b[0]) || contains(b, a[0]) {
+        return 0.0;
+    }
+    let mut best = f64::INFINITY;
+    for i in 0..a.len() {
+        let (p, q) = (a[i], a[(i + 1) % a.len()]);
+        for j in 0..b.len() {
+            let (r, s) = (b[j], b[(j + 1) % b.len()]);
+            if segment_crossing(p, q, r, s).is_some() {
+                return 0.0;
+            }
+            best = best.min(to_segment(p, r, s)).min(to_segment(r, p, q));
+        }
+    }
+    best
+}
+
+/// Distance of `p` from the segment `ab`.
+pub fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let ab = b - a;
+    let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
+    p.distance(a + t * ab)
+}
+
+/// Distance of the polygon's centre of area from its nearest side, and its smallest width over all directions of its sides.
+pub fn narrowest(polygon: &[DVec2]) -> f64 {
+    let n = polygon.len();
+    (0..n)
+        .map(|i| {
+            let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+            let across = (b - a).perp().normalize_or_zero();
+            polygon.iter().map(|p| (*p - a).dot(across)).fold(0.0, f64::max)
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Centre of area of a simple polygon.
+pub fn centroid(polygon: &[DVec2]) -> DVec2 {
+    let n = polygon.len();
+    let sum: DVec2 = (0..n)
+        .map(|i| {
+            let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+            (a + b) * a.perp_dot(b)
+        })
+        .sum();
+    sum / (6.0 * polygon_area(polygon))
+}
+
+/// Distance of a point from a polygon, 0 inside.
+pub fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
+    if contains(polygon, p) {
+        return 0.0;
+    }
+    let n = polygon.len();
+    (0..n).map(|i| to_segment(p, polygon[i], polygon[(i + 1) % n])).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,75 @@
+//! Walking RON text by path without knowing its types: which fields a value has and where they stand.
+
+use super::lexer::{self, Kind, Token};
+use std::ops::Range;
+
+/// One item of a list or one field of a struct, byte ranges of the text it was found in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The field's name; `None` in lists and tuples.
+    pub name: Option<Range<usize>>,
+    pub value: Range<usize>,
+}
+
+/// The direct entries of the first bracketed value of `text`; none if it is not bracketed.
+pub fn entries(text: &str) -> Vec<Entry> {
+    let tokens = skip_attribute(text);
+    let Some(open) = tokens.iter().position(|t| matches!(t.kind, Kind::Open(_))) else { return Vec::new() };
+    let mut list = Vec::new();
+    let mut depth = 0usize;
+    let mut first = open + 1;
+    for (i, token) in tokens.iter().enumerate().skip(open) {
+        let ends = match token.kind {
+            Kind::Open(_) => {
+                depth += 1;
+                false
+            }
+            Kind::Close(_) => {
+                depth -= 1;
+                depth == 0
+            }
+            Kind::Mark(b',') => depth == 1,
+            _ => false,
+        };
+        if ends {
+            list.extend(entry(&tokens[first..i]));
+            first = i + 1;
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    list
+}
+
+/// The range inside the first bracket of `text` where one more entry can be put: just before its end.
+pub fn inner_end(text: &str) -> Option<usize> {
+    let tokens = skip_attribute(text);
+    let mut depth = 0usize;
+    for token in tokens {
+        match token.kind {
+            Kind::Open(_) => depth += 1,
+            Kind::Close(_) if depth == 1 => return Some(token.span.start),
+            Kind::Close(_) => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    None
+}
+
+fn entry(tokens: &[Token]) -> Option<Entry> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
+    let named = first.kind == Kind::Word && tokens.get(1).is_some_and(|t| t.kind == Kind::Mark(b':'));
+    let value = if named { tokens.get(2)?.span.start } else { first.span.start };
+    Some(Entry { name: named.then(|| first.span.clone()), value: value..last.span.end })
+}
+
+/// Tokens of the text after `#![...]` lines.
+fn skip_attribute(text: &str) -> Vec<Token> {
+    let mut tokens = lexer::tokens(text).unwrap_or_default();
+    while tokens.first().is_some_and(|t| text[t.span.clone()].starts_with('#')) {
+        let end = tokens.iter().position(|t| t.kind == Kind::Close(b']')).map_or(tokens.len(), |i| i + 1);
+        tokens.drain(..end);
+    }
+    tokens
+}
