@@ -84,7 +84,7 @@ impl Coat {
         for &i in self.cells.at(p) {
             let h = self.tile_height(&self.tiles[i as usize], p);
             // The blend shrinks with the lower tile, so that a tile fading in never raises its neighbour by a jump.
-            let k = (2.0 * top.min(h)).min(0.12);
+            let k = (2.0 * top.min(h)).min(0.5);
             top = if k > 1e-6 {
                 crate::field::meet(top, h, k)
             } else {

@@ -37,11 +37,13 @@ const GIRTH: [(f64, f64); 8] = [
     (33.5, 3.0),
 ];
 
-const EYE: DVec3 = v(22.8, 7.4, 3.6);
+/// Height of the fish relative to the tables above and the fins' outlines.
+const TALL: f64 = 1.2;
+const EYE: DVec3 = v(22.6, 8.3, 3.8);
 const SCALE: Shape = Shape {
-    shoulder: 0.35,
+    shoulder: 0.4,
     point: 2.0,
-    edge: 1.0,
+    edge: 1.2,
     crown: 0.35,
     quill: 0.0,
 };
@@ -60,13 +62,13 @@ pub fn fish() -> Creature {
     };
     let edge = |p: DVec3| {
         let near = mirror_y(straighten(p)).distance(EYE);
-        0.56 * (1.0 - 0.25 * step(9.0, 4.0, near)) * (1.0 + 0.7 * step(1.0, 7.0, straighten(p).y))
+        0.6 * (1.0 - 0.25 * step(9.0, 4.0, near)) * (1.0 + 1.0 * step(0.5, 5.0, straighten(p).y))
     };
     Creature {
         name: "fish",
         field: Box::new(field),
-        low: v(-50.0, -26.0, -32.0),
-        high: v(42.0, 26.0, 36.0),
+        low: v(-50.0, -26.0, -38.0),
+        high: v(42.0, 26.0, 42.0),
         edge: Box::new(edge),
     }
 }
@@ -79,6 +81,7 @@ fn straighten(p: DVec3) -> DVec3 {
 }
 
 fn body(p: DVec3) -> f64 {
+    let p = v(p.x, p.y, p.z / TALL);
     let x = p.x.clamp(-27.0, 33.5);
     let (up, low, wide) = (curve(x, &BACK), curve(x, &BELLY), curve(x, &GIRTH));
     let (mid, high) = ((up + low) * 0.5, (up - low) * 0.5);
@@ -104,8 +107,7 @@ fn head_relief(m: DVec3) -> f64 {
     let rim = 0.55 * bell(g, 1.2, 0.7);
     let spokes =
         0.18 * ((m.z - 0.5).atan2(24.5 - m.x) * 26.0).cos() * step(1.6, 2.6, g) * step(6.5, 4.5, g);
-    let cheek = (v(m.x, 0.0, m.z) - v(21.0, 0.0, -3.5)).length() - 5.2;
-    let plate = 0.5 * step(0.6, -0.6, cheek) - 0.35 * bell(cheek, 0.9, 0.6);
+    let plate = 0.6 * bell(g, 6.6, 0.8) * step(9.0, 4.0, m.z.abs()) + 0.5 * step(6.0, 7.6, g);
     let nostril = -0.7 * bell(v(m.x, 0.0, m.z).distance(v(29.2, 0.0, 3.0)), 0.0, 0.8);
     let flank = step(0.5, 2.5, m.y);
     flank * (cover + rim + spokes + plate + nostril)
@@ -113,16 +115,16 @@ fn head_relief(m: DVec3) -> f64 {
 
 fn eye(m: DVec3) -> f64 {
     let r = (m.x - EYE.x).hypot(m.z - EYE.z);
-    let pupil = -0.6 * step(1.9, 1.3, r) + 0.2 * bell(r, 2.6, 0.4);
-    let globe = ellipsoid(m, EYE - v(0.0, 1.0, 0.0), v(3.5, 2.7, 3.5)) - pupil;
+    let pupil = -0.8 * step(2.5, 1.6, r);
+    let globe = ellipsoid(m, EYE - v(0.0, 1.0, 0.0), v(4.3, 3.1, 4.3)) - pupil;
     let lid = ring(
         m,
-        EYE + v(0.0, 0.1, 0.0),
-        v(0.25, 0.97, 0.1).normalize(),
-        3.7,
-        0.8,
+        EYE + v(0.0, -0.2, 0.0),
+        v(0.14, 0.98, 0.1).normalize(),
+        4.5,
+        0.95,
     );
-    join(globe, lid, 0.4)
+    join(globe, lid, 0.5)
 }
 
 fn mouth(p: DVec3) -> f64 {
@@ -167,9 +169,9 @@ impl Fin<'_> {
         let angle = d.y.atan2(d.x);
         let wave = (angle * self.rays).cos();
         let out = d.length() / self.reach;
-        let scallop = 0.7 * wave * step(0.5, 1.0, out);
+        let scallop = 0.35 * wave * step(0.5, 1.0, out);
         let outline = polygon(q, self.outline) - 1.0 - scallop;
-        let thick = 1.35 + 0.9 * (1.0 - out).max(0.0) + 0.42 * wave * step(0.05, 0.35, out);
+        let thick = 1.35 + 0.9 * (1.0 - out).max(0.0) + 0.4 * wave * step(0.25, 0.55, out);
         meet(outline, h.abs() - thick, 1.2)
     }
 }
@@ -179,7 +181,7 @@ const fn c(x: f64, z: f64) -> DVec2 {
 }
 
 fn fins(p: DVec3, m: DVec3) -> f64 {
-    let flat = c(p.x, p.z);
+    let flat = c(p.x, p.z / TALL);
     let tail = Fin {
         outline: &[
             c(-22., 2.),
@@ -199,7 +201,7 @@ fn fins(p: DVec3, m: DVec3) -> f64 {
             c(-22., -2.),
         ],
         hub: c(-18.0, 0.0),
-        rays: 26.0,
+        rays: 48.0,
         reach: 27.0,
     };
     let dorsal = Fin {
@@ -217,7 +219,7 @@ fn fins(p: DVec3, m: DVec3) -> f64 {
             c(4., 13.),
         ],
         hub: c(10.0, -8.0),
-        rays: 34.0,
+        rays: 62.0,
         reach: 34.0,
     };
     let anal = Fin {
@@ -231,7 +233,7 @@ fn fins(p: DVec3, m: DVec3) -> f64 {
             c(-17., -5.),
         ],
         hub: c(-4.0, -1.0),
-        rays: 24.0,
+        rays: 44.0,
         reach: 23.0,
     };
     let mut d = join(tail.field(flat, p.y), dorsal.field(flat, p.y), 0.5);
@@ -255,7 +257,7 @@ fn pectoral(m: DVec3) -> f64 {
             c(1., -1.6),
         ],
         hub: c(4.0, 0.0),
-        rays: 19.0,
+        rays: 36.0,
         reach: 19.0,
     };
     let frame = axes(v(0.93, -0.36, 0.22), v(0.0, 0.2, 1.0));
@@ -277,40 +279,40 @@ fn pelvic(m: DVec3) -> f64 {
             c(-3., 3.),
         ],
         hub: c(2.0, 6.0),
-        rays: 20.0,
+        rays: 36.0,
         reach: 18.0,
     };
     let frame = axes(v(1.0, 0.0, 0.0), v(0.0, -0.32, 1.0));
-    let q = frame.transpose() * (m - v(4.0, 4.2, -13.5));
+    let q = frame.transpose() * (m - v(4.0, 4.2, -13.5 * TALL));
     fin.field(c(q.x, q.z), q.y)
 }
 
 /// Rows of scales on both flanks, growing towards the tail; those in front cover the roots of those behind.
 fn scales() -> Coat {
     let mut tiles = Vec::new();
-    for column in 0..17 {
-        let x = 17.5 - 2.75 * f64::from(column);
-        for row in -9..=9 {
-            let offset = f64::from(row) + 0.5 * f64::from(column % 2);
-            let (up, low) = (curve(x, &BACK), curve(x, &BELLY));
+    let mut x = 18.0;
+    let mut column = 0;
+    while x > -24.0 {
+        let (up, low) = (curve(x, &BACK) * TALL, curve(x, &BELLY) * TALL);
+        // Distance between neighbouring scales of a column at the middle of the flank.
+        let gap = 0.5 * (up - low) * 0.235;
+        for row in -7..=7 {
             // Equal steps of the angle around the body; fewer rows towards the tail would break the diagonals.
-            let angle = offset / 9.5 * 1.35;
-            let z = (up + low) * 0.5 + (up - low) * 0.5 * angle.sin();
-            let size = ((up - low) / 33.0).powf(0.75).max(0.42);
+            let angle = (f64::from(row) + 0.5 * f64::from(column % 2)) * 0.235;
+            let z = (up + low) * 0.5 + (up - low) * 0.5 * angle.min(1.5).sin();
             for side in [-1.0, 1.0] {
-                let Some(root) = march(&body, v(x, 40.0 * side, z), v(0.0, -side, 0.0)) else {
+                let from = v(x, 40.0 * side, z);
+                let Some(root) = march(&body, from, v(0.0, -side, 0.0)) else {
                     continue;
                 };
-                if behind_gill(root - v(3.0, 0.0, 0.0)) > 0.5 && root.x > -25.0 {
-                    tiles.push(Tile::on(
-                        &body,
-                        root,
-                        v(-1.0, 0.0, 0.0),
-                        [5.2 * size.max(0.7), 2.75 * size, 0.75 * size.max(0.7)],
-                    ));
+                if behind_gill(root - v(1.0, 0.0, 0.0)) > 0.5 {
+                    let size = [1.75 * gap + 0.9, 0.64 * gap, 0.3 * gap];
+                    tiles.push(Tile::on(&body, root, v(-1.0, 0.0, 0.0), size));
                 }
             }
         }
+        x -= 0.72 * gap + 0.2;
+        column += 1;
     }
     Coat::new(tiles, SCALE)
 }

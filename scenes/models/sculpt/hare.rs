@@ -11,9 +11,9 @@ const EYE: DVec3 = v(19.6, 6.0, 47.6);
 const LOCK: Shape = Shape {
     shoulder: 0.15,
     point: 1.5,
-    edge: 1.0,
+    edge: 1.15,
     crown: 0.35,
-    quill: 0.0,
+    quill: 0.3,
 };
 
 /// The hare, about 78 mm tall.
@@ -30,7 +30,7 @@ pub fn hare() -> Creature {
     let edge = |p: DVec3| {
         let t = mirror_y(turn(-TURN) * p);
         let face = 1.0 - 0.28 * step(14.0, 7.0, t.distance(v(23.0, 3.0, 45.0)));
-        0.56 * face * (1.0 + 0.7 * step(2.0, 14.0, p.y))
+        0.6 * face * (1.0 + 1.0 * step(2.0, 14.0, p.y))
     };
     Creature {
         name: "hare",
@@ -121,7 +121,7 @@ fn paws(m: DVec3) -> f64 {
 fn ears(m: DVec3) -> f64 {
     let (base, tip) = (v(13.0, 3.4, 51.0), v(4.0, 9.8, 79.0));
     let up = (tip - base).normalize();
-    let open = v(0.62, 0.55, 0.25);
+    let open = v(0.85, 0.3, 0.25);
     let open = (open - up * open.dot(up)).normalize();
     let side = up.cross(open);
     let d = m - base;
@@ -130,23 +130,30 @@ fn ears(m: DVec3) -> f64 {
     let outer = ellipsoid(q, v(0.0, 0.0, middle), v(5.6, 3.4, 15.8));
     let root = cone(q, v(0.0, 0.0, -3.0), v(0.0, 0.0, 8.0), 3.6, 3.4);
     let hollow = ellipsoid(q, v(0.0, 3.4, middle + 0.5), v(3.9, 3.6, 13.2));
-    let vein = 0.25 * (q.x * 2.4 + 0.25 * q.z).cos() * step(4.0, 9.0, q.z);
-    carve(join(outer, root, 3.0), hollow + vein, 1.0)
+    let vein = 0.22 * (q.x * 2.0 + 0.15 * q.z).cos() * step(4.0, 9.0, q.z);
+    carve(join(outer, root, 3.0), hollow + vein, 1.6)
 }
 
 fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let out = v(0.45, 0.86, 0.15).normalize();
-    let gaze = m - EYE;
+    // The lids are a ring flattened from above and below, which gives the eye its almond shape.
+    let gaze = (m - EYE) * v(1.0, 1.0, 1.22);
     let r = (gaze - out * gaze.dot(out)).length();
-    let eye = ball(m, EYE, 3.1) + 0.5 * step(1.5, 0.9, r) * step(0.0, 1.0, gaze.dot(out));
-    let lid = ring(m, EYE + out * 1.5, out, 2.95, 0.8);
+    let dimple = 0.5 * step(1.9, 0.5, r) * step(0.0, 1.0, gaze.dot(out));
+    let eye = ball(m, EYE, 3.3) + dimple;
+    let lid = ring(gaze, out * 1.3, out, 3.5, 0.9) / 1.1;
     let brow = cone(m, v(16.8, 6.4, 51.4), v(22.2, 5.2, 51.0), 1.1, 0.9);
-    let pad = ellipsoid(m, v(28.2, 2.1, 41.0), v(3.2, 2.5, 2.7));
-    let dots = 0.3 * (m.x * 3.3).sin() * ((m.z - 0.2 * m.x) * 3.3).sin() * step(29.5, 28.5, m.x);
-    let nose = ellipsoid(p, v(31.0, 0.0, 44.0), v(1.4, 1.9, 1.3));
-    let chin = ellipsoid(p, v(26.8, 0.0, 38.2), v(3.0, 2.4, 1.8));
-    let mut d = join(pad - dots, chin, 0.5);
-    d = join(d, nose, 0.4);
+    let pad = ellipsoid(m, v(27.4, 2.3, 41.6), v(4.0, 2.9, 3.0));
+    let q = m - v(27.4, 2.3, 41.6);
+    let dots =
+        0.28 * (q.x * 2.6).sin() * (q.z * 2.6).sin() * step(3.0, 1.5, q.x) * step(-3.2, -1.8, q.x);
+    let bridge = cone(p, v(21.0, 0.0, 47.4), v(29.6, 0.0, 44.6), 3.6, 2.3);
+    let nose = ellipsoid(m, v(30.6, 0.7, 44.4), v(1.7, 1.7, 1.3));
+    let nostril = ball(m, v(32.0, 1.1, 44.1), 0.55);
+    let chin = ellipsoid(p, v(26.0, 0.0, 38.4), v(3.4, 2.6, 2.0));
+    let mut d = join(pad - dots, chin, 0.6);
+    d = join(d, bridge, 1.6);
+    d = join(d, carve(nose, nostril, 0.4), 0.35);
     join(join(d, join(eye, lid, 0.4), 0.5), brow, 0.8)
 }
 
@@ -160,9 +167,9 @@ fn fur() -> Coat {
     let whole = |p: DVec3| trunk(p, mirror_y(p));
     let gap = |p: DVec3| {
         let m = mirror_y(p);
-        let bare = m.distance(EYE) < 4.6 || p.x > 26.5 || p.z < 1.5 || (p.z < 5.0 && p.x > 8.0);
+        let bare = m.distance(EYE) < 4.2 || p.x > 25.0 || p.z < 1.5 || (p.z < 5.0 && p.x > 8.0);
         let face = step(22.0, 12.0, p.distance(v(24.0, 0.0, 45.0)));
-        (!bare).then_some(3.7 - 1.4 * face)
+        (!bare).then_some(3.4 - 1.2 * face)
     };
     let roots = scatter(&whole, v(-38., -20., 0.), v(36., 20., 58.), &gap);
     let tiles = roots.into_iter().map(|p| {
@@ -180,7 +187,7 @@ fn fur() -> Coat {
             &whole,
             p,
             flow,
-            [8.0 * size, 2.3 * size.max(0.7), 0.85 * size],
+            [7.6 * size, 2.2 * size.max(0.7), 0.95 * size],
         )
     });
     Coat::new(tiles.collect(), LOCK)

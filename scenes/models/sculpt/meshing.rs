@@ -16,6 +16,15 @@ const ROUNDS: usize = 8;
 /// Edges above this multiple of the wanted length are split, edges below [`SHORT`] collapsed (Botsch and Kobbelt's 4/3, 4/5).
 const LONG: f64 = 4.0 / 3.0;
 const SHORT: f64 = 4.0 / 5.0;
+/// Normal curvature in 1/mm at which the wanted edge length is exactly the creature's own; flatter places get longer
+/// edges, the steps between feathers or scales shorter ones (as in Dunyach et al., "Adaptive Remeshing for Real-Time Mesh
+/// Deformation", 2013), within the factors [`FINEST`] and [`COARSEST`].
+const CURVATURE: f64 = 0.55;
+const FINEST: f64 = 0.66;
+const COARSEST: f64 = 1.5;
+/// Smallest shape (see `Editor::shape`) a triangle may take when edges are turned along ridges: smallest angle about 22
+/// degrees; below 0.5 slivers appear, above 0.75 ridges stay jagged.
+const PLAIN: f64 = 0.6;
 /// Marks a face that a collapse has removed.
 const DEAD: [u32; 3] = [u32::MAX; 3];
 
@@ -43,13 +52,15 @@ pub fn sculpt(creature: &Creature, pitch: f64) -> Result<Mesh, String> {
     let first = polygonise(creature, pitch)?;
     let mut editor = Editor::new(largest_part(first));
     for _ in 0..ROUNDS {
-        editor.split_long(&*creature.edge, field);
-        editor.collapse_short(&*creature.edge, field);
+        editor.measure(field, &*creature.edge);
+        editor.split_long(field);
+        editor.collapse_short(field);
         editor.flip_edges();
-        editor.relax(field, &*creature.edge);
+        editor.relax(field);
     }
     editor.flip_edges();
     editor.settle_all(field, 6);
+    editor.align(field);
     Ok(editor.finish())
 }
 
@@ -170,6 +181,8 @@ struct Editor {
     points: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     around: Vec<Vec<u32>>,
+    /// Wanted edge length at every vertex, mm.
+    size: Vec<f64>,
 }
 
 impl Editor {
@@ -181,6 +194,7 @@ impl Editor {
             }
         }
         Editor {
+            size: vec![1.0; mesh.points.len()],
             points: mesh.points,
             faces: mesh.faces,
             around,
@@ -218,8 +232,7 @@ impl Editor {
         (b - a).cross(c - a)
     }
 
-    /// Cosine of the largest and of the smallest angle do not matter here: the sine-based shape of a triangle, 1 for an
-    /// equilateral one, 0 for a degenerate one.
+    /// Shape of a triangle: 1 for an equilateral one, 0 for a degenerate one.
     fn shape(&self, f: [u32; 3]) -> f64 {
         let [a, b, c] = f.map(|i| self.at(i));
         let sum = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
@@ -248,15 +261,52 @@ impl Editor {
         }
     }
 
+    /// Sets the wanted edge lengths from the creature's own and the curvature, graded over neighbouring vertices.
+    fn measure(&mut self, field: &Field, edge: &Field) {
+        let normals: Vec<DVec3> = self
+            .points
+            .par_iter()
+            .map(|&p| gradient(field, p).normalize_or_zero())
+            .collect();
+        let local = |i: u32| {
+            let p = self.at(i);
+            let bend = self
+                .neighbours(i)
+                .into_iter()
+                .map(|n| {
+                    normals[n as usize].distance(normals[i as usize])
+                        / self.at(n).distance(p).max(0.05)
+                })
+                .fold(0.0, f64::max);
+            edge(p) * (CURVATURE / bend.max(1e-3)).sqrt().clamp(FINEST, COARSEST)
+        };
+        let count = self.points.len() as u32;
+        self.size = (0..count).into_par_iter().map(local).collect();
+        for _ in 0..3 {
+            let graded = |i: u32| {
+                let ring = self.neighbours(i);
+                let sum: f64 = ring.iter().map(|&n| self.size[n as usize]).sum();
+                let own = self.size[i as usize];
+                own.min(0.5 * own + 0.5 * sum / ring.len().max(1) as f64)
+            };
+            self.size = (0..count).into_par_iter().map(graded).collect();
+        }
+    }
+
+    /// Wanted length of edge a-b, mm.
+    fn wanted(&self, a: u32, b: u32) -> f64 {
+        0.5 * (self.size[a as usize] + self.size[b as usize])
+    }
+
     /// Splits edges that are too long at their middle, put onto the surface.
-    fn split_long(&mut self, edge: &Field, field: &Field) {
+    fn split_long(&mut self, field: &Field) {
         let long: Vec<(u32, u32, DVec3)> = self
             .edges()
             .into_par_iter()
             .filter_map(|(a, b)| {
                 let (p, q) = (self.at(a), self.at(b));
                 let mid = (p + q) * 0.5;
-                let wanted = edge(mid);
+                let wanted = self.wanted(a, b);
                 (p.distance(q) > LONG * wanted)
                     .then(|| (a, b, settle(field, mid, 2, 0.15 * wanted)))
             })
@@ -268,6 +318,7 @@ impl Editor {
             let m = self.points.len() as u32;
             self.points.push(mid);
             self.around.push(Vec::new());
+            self.size.push(self.wanted(a, b));
             self.replace(left, [a, m, c]);
             self.push([m, b, c]);
             self.replace(right, [b, m, d]);
@@ -276,14 +327,14 @@ impl Editor {
     }
 
     /// Collapses edges that are too short, shortest first, where topology and orientation allow it.
-    fn collapse_short(&mut self, edge: &Field, field: &Field) {
+    fn collapse_short(&mut self, field: &Field) {
         let mut short: Vec<(f64, u32, u32, DVec3)> = self
             .edges()
             .into_par_iter()
             .filter_map(|(a, b)| {
                 let (p, q) = (self.at(a), self.at(b));
                 let mid = (p + q) * 0.5;
-                let wanted = edge(mid);
+                let wanted = self.wanted(a, b);
                 let ratio = p.distance(q) / wanted;
                 (ratio < SHORT).then(|| (ratio, a, b, settle(field, mid, 2, 0.15 * wanted)))
             })
@@ -291,7 +342,7 @@ impl Editor {
         short.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
         let mut moved = vec![false; self.points.len()];
         for (_, a, b, mid) in short {
-            if moved[a as usize] || moved[b as usize] || !self.may_collapse(a, b, mid, edge) {
+            if moved[a as usize] || moved[b as usize] || !self.may_collapse(a, b, mid) {
                 continue;
             }
             self.collapse(a, b, mid);
@@ -301,7 +352,7 @@ impl Editor {
     }
 
     /// Whether edge a-b may shrink to `mid`: the link condition holds, no face turns over, no edge becomes too long.
-    fn may_collapse(&self, a: u32, b: u32, mid: DVec3, edge: &Field) -> bool {
+    fn may_collapse(&self, a: u32, b: u32, mid: DVec3) -> bool {
         let Some([(left, c), (right, d)]) = self.wings(a, b) else {
             return false;
         };
@@ -312,7 +363,7 @@ impl Editor {
         if shared != 2 || valence(c) <= 3 || valence(d) <= 3 || near_a.len() + near_b.len() > 14 {
             return false;
         }
-        let longest = LONG * edge(mid);
+        let longest = LONG * self.wanted(a, b);
         let all = near_a.iter().chain(&near_b).filter(|&&n| n != a && n != b);
         if all.clone().any(|&n| self.at(n).distance(mid) > longest) {
             return false;
@@ -332,6 +383,7 @@ impl Editor {
 
     fn collapse(&mut self, a: u32, b: u32, mid: DVec3) {
         self.points[a as usize] = mid;
+        self.size[a as usize] = self.wanted(a, b);
         for i in self.around[b as usize].clone() {
             let f = self.faces[i as usize];
             if f.contains(&a) {
@@ -381,8 +433,58 @@ impl Editor {
         }
     }
 
+    /// Flips edges that run across ridges and grooves so that they run along them: the two faces shall differ as little
+    /// as possible from the surface's own normals. Triangles keep a shape of at least [`PLAIN`].
+    fn align(&mut self, field: &Field) {
+        for _ in 0..4 {
+            let mut gains: Vec<(f64, u32, u32)> = self
+                .edges()
+                .into_par_iter()
+                .filter_map(|(a, b)| self.gain(a, b, field).map(|g| (g, a, b)))
+                .collect();
+            gains.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+            let mut touched = vec![false; self.faces.len()];
+            for (_, a, b) in gains {
+                let Some([(left, c), (right, d)]) = self.wings(a, b) else {
+                    continue;
+                };
+                let free = !touched[left as usize] && !touched[right as usize];
+                if free && !self.neighbours(c).contains(&d) {
+                    self.replace(left, [a, d, c]);
+                    self.replace(right, [d, b, c]);
+                    touched[left as usize] = true;
+                    touched[right as usize] = true;
+                }
+            }
+        }
+    }
+
+    /// How much nearer to the surface's normals a flip of edge a-b would bring its two faces; `None` if it is not worth
+    /// it or would spoil them.
+    fn gain(&self, a: u32, b: u32, field: &Field) -> Option<f64> {
+        let [(left, c), (right, d)] = self.wings(a, b)?;
+        let valence = |i: u32| self.around[i as usize].len();
+        let taken = c == d || valence(a) <= 4 || valence(b) <= 4 || self.neighbours(c).contains(&d);
+        let (new_l, new_r) = ([a, d, c], [d, b, c]);
+        if taken || self.shape(new_l).min(self.shape(new_r)) < PLAIN {
+            return None;
+        }
+        let error = |f: [u32; 3]| {
+            let middle = f.iter().map(|&i| self.at(i)).sum::<DVec3>() / 3.0;
+            let cross = self.cross(f);
+            cross.length() - cross.dot(gradient(field, middle).normalize_or_zero())
+        };
+        let facing = |f: [u32; 3]| self.cross(f).normalize_or_zero();
+        if facing(new_l).dot(facing(new_r)) < 0.2 {
+            return None;
+        }
+        let before = error(self.faces[left as usize]) + error(self.faces[right as usize]);
+        let gain = before - error(new_l) - error(new_r);
+        (gain > 0.05 * before).then_some(gain)
+    }
+
     /// Moves every vertex towards the middle of its neighbours along the surface, then back onto it.
-    fn relax(&mut self, field: &Field, edge: &Field) {
+    fn relax(&mut self, field: &Field) {
         let moved: Vec<DVec3> = (0..self.points.len() as u32)
             .into_par_iter()
             .map(|i| {
@@ -394,7 +496,7 @@ impl Editor {
                 let middle = ring.iter().map(|&n| self.at(n)).sum::<DVec3>() / ring.len() as f64;
                 let normal = gradient(field, p).normalize_or_zero();
                 let slide = (middle - p) - normal * (middle - p).dot(normal);
-                settle(field, p + slide * 0.6, 2, 0.15 * edge(p))
+                settle(field, p + slide * 0.6, 2, 0.15 * self.size[i as usize])
             })
             .collect();
         self.adopt(moved);
@@ -409,27 +511,22 @@ impl Editor {
         self.adopt(moved);
     }
 
-    /// Takes over new positions except where they would turn a face over or flatten it.
+    /// Takes over new positions except where a face would turn over or shrink to less than half.
     fn adopt(&mut self, moved: Vec<DVec3>) {
         for (i, new) in moved.into_iter().enumerate() {
-            let old = self.points[i];
-            let before: Vec<DVec3> = self.around[i]
-                .iter()
-                .map(|&f| self.cross(self.faces[f as usize]))
-                .collect();
-            self.points[i] = new;
-            let fits = self.around[i].iter().zip(&before).all(|(&f, was)| {
-                let now = self.cross(self.faces[f as usize]);
-                now.dot(*was) > 0.5 * now.length() * was.length()
-                    && self.shape(self.faces[f as usize]) > 0.15
+            let crosses = |editor: &Editor| -> Vec<DVec3> {
+                editor.around[i]
+                    .iter()
+                    .map(|&f| editor.cross(editor.faces[f as usize]))
+                    .collect()
+            };
+            let before = crosses(self);
+            let old = std::mem::replace(&mut self.points[i], new);
+            let spoilt = crosses(self).into_iter().zip(before).any(|(now, was)| {
+                now.dot(was) <= 0.5 * now.length() * was.length()
+                    || now.length() < 0.4 * was.length()
             });
-            if !fits
-                && self.around[i].iter().zip(&before).any(|(&f, was)| {
-                    let now = self.cross(self.faces[f as usize]);
-                    now.dot(*was) <= 0.5 * now.length() * was.length()
-                        || now.length() < 0.5 * was.length()
-                })
-            {
+            if spoilt {
                 self.points[i] = old;
             }
         }

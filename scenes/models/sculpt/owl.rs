@@ -18,16 +18,16 @@ const STUMP: f64 = 7.0;
 const FEATHER: Shape = Shape {
     shoulder: 0.35,
     point: 1.9,
-    edge: 0.8,
-    crown: 0.35,
-    quill: 0.15,
+    edge: 1.25,
+    crown: 0.4,
+    quill: 0.22,
 };
 const VANE: Shape = Shape {
     shoulder: 0.6,
     point: 1.8,
-    edge: 0.75,
+    edge: 1.35,
     crown: 0.3,
-    quill: 0.3,
+    quill: 0.35,
 };
 
 /// The owl, about 76 mm tall, facing -y.
@@ -42,17 +42,16 @@ pub fn owl() -> Creature {
         let trunk = trunk(b) - body_coat.height(b);
         let wing = wing(w) - wing_coat.height(w);
         let skull = skull(h) - face_relief(h) - head_coat.height(h);
-        let mut d = join(trunk, wing, 1.2);
+        let mut d = join(join(trunk, stump(b), 2.5), wing, 1.2);
         d = join(d, skull, 2.5);
         d = join(d, face_parts(mirror_x(h), h), 0.35);
-        d = join(d, feet(w), 0.6);
-        join(d, stump(p), 0.7)
+        join(d, feet(w), 1.0)
     };
     let edge = |p: DVec3| {
         let h = turn(-BODY_TURN - HEAD_TURN) * p;
         let eye = mirror_x(h).distance(EYE);
         let face = 1.0 - 0.3 * step(11.0, 5.0, eye);
-        0.56 * face * (1.0 + 0.8 * step(0.0, 12.0, p.y))
+        0.67 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
     };
     Creature {
         name: "owl",
@@ -64,7 +63,7 @@ pub fn owl() -> Creature {
 }
 
 fn trunk(p: DVec3) -> f64 {
-    let belly = ellipsoid(p, v(0.0, 0.0, 28.0), v(16.5, 15.0, 21.0));
+    let belly = ellipsoid(p, v(0.0, 0.0, 27.0), v(16.5, 15.0, 23.0));
     let chest = ellipsoid(p, v(0.0, -1.5, 39.0), v(15.5, 13.5, 15.0));
     let tail = turned_ellipsoid(
         p,
@@ -117,7 +116,7 @@ fn face_relief(p: DVec3) -> f64 {
 /// Eyes, brows and beak; `m` is the mirrored point.
 fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let (r, _) = about_eye(p);
-    let pupil = -0.75 * step(2.1, 1.5, r) + 0.22 * bell(r, 3.3, 0.45);
+    let pupil = -0.8 * step(2.5, 1.6, r);
     let eye = ball(m, EYE, 4.6) - pupil * step(-13.0, -15.0, p.y);
     let lid = ring(
         m,
@@ -129,13 +128,14 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let brow = tube(
         m,
         &[
-            (v(1.2, -17.2, 59.5), 1.3),
-            (v(6.5, -16.6, 64.2), 1.9),
-            (v(11.5, -11.8, 68.2), 1.9),
-            (v(15.0, -6.0, 74.0), 1.0),
+            (v(1.0, -15.8, 59.0), 1.5),
+            (v(6.0, -14.6, 64.6), 2.6),
+            (v(10.5, -10.5, 67.6), 3.0),
+            (v(13.6, -6.0, 72.0), 2.4),
         ],
-        1.0,
+        3.0,
     );
+    let streaks = 0.3 * ((m.z - m.x) * 2.3).cos() * step(3.0, 5.0, m.x);
     let beak = tube(
         v(p.x * 1.25, p.y, p.z),
         &[
@@ -150,7 +150,7 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     join(
         join(join(eye, lid, 0.3), brow, 0.8),
         join(beak, cere, 0.4),
-        0.4,
+        1.0,
     )
 }
 
@@ -159,9 +159,9 @@ fn feet(m: DVec3) -> f64 {
     let leg = cone(m, v(6.5, -4.0, 16.0), v(7.0, -9.5, 10.0), 5.5, 3.6);
     let mut d = leg;
     for (tip, spread) in [
-        (v(3.2, -16.2, STUMP + 1.2), 0.6),
-        (v(7.4, -17.2, STUMP + 1.2), 0.0),
-        (v(11.6, -15.2, STUMP + 1.2), -0.5),
+        (v(3.3, -15.2, STUMP + 1.2), 0.6),
+        (v(7.2, -16.0, STUMP + 1.2), 0.0),
+        (v(10.8, -14.2, STUMP + 1.2), -0.5),
     ] {
         let knuckle = (v(7.0, -10.0, 9.6) + tip) * 0.5 + v(0.0, 0.0, 1.0);
         let toe = tube(
@@ -190,11 +190,12 @@ fn feet(m: DVec3) -> f64 {
 
 /// Stump with bark ridges and year rings.
 fn stump(p: DVec3) -> f64 {
+    let p = p + v(0.0, 2.5, 0.0);
     let radial = p.x.hypot(p.y);
     let angle = p.y.atan2(p.x);
     let wave = (angle * 11.0 + 1.6 * noise(v(angle * 2.0, 0.0, p.z * 0.25))).sin();
     let bark = 0.7 * wave.abs().sqrt() + 0.5 * noise(v(p.x * 0.5, p.y * 0.5, p.z * 0.8));
-    let side = radial - 17.6 - 0.04 * (STUMP - p.z).max(0.0).powi(2) - bark;
+    let side = radial - 18.0 - 0.04 * (STUMP - p.z).max(0.0).powi(2) - bark;
     let rings = 0.16 * (radial * 3.4 + noise(p * 0.2)).sin();
     let top = p.z - STUMP - rings;
     meet(meet(side, top, 1.4), -p.z, 0.6)
@@ -206,7 +207,7 @@ fn body_feathers() -> Coat {
     let mut z = 11.0;
     let mut row = 0;
     while z < 54.0 {
-        let count = 22;
+        let count = 17;
         for i in 0..count {
             let angle = (f64::from(i) + 0.5 * f64::from(row % 2)) / f64::from(count)
                 * std::f64::consts::TAU;
@@ -219,11 +220,11 @@ fn body_feathers() -> Coat {
                     &trunk,
                     root,
                     v(0.12 * jitter, 0.0, -1.0),
-                    [7.6 * grow, 2.75, 0.85],
+                    [9.2 * grow, 3.6, 1.1],
                 ));
             }
         }
-        z += 3.9;
+        z += 4.7;
         row += 1;
     }
     Coat::new(tiles, FEATHER)
@@ -234,7 +235,7 @@ fn head_feathers() -> Coat {
     let wanted = |p: DVec3| {
         let (r, _) = about_eye(p);
         let on_face = p.y < -4.0 && r < DISC + 0.7;
-        (!on_face && p.z > 47.0).then_some(3.0)
+        (!on_face && p.z > 47.0).then_some(3.6)
     };
     let roots = crate::coat::scatter(&skull, v(-20., -18., 44.), v(20., 16., 82.), &wanted);
     let flow = |p: DVec3| {
@@ -248,7 +249,7 @@ fn head_feathers() -> Coat {
     };
     let tiles = roots
         .into_iter()
-        .map(|p| Tile::on(&skull, p, flow(p), [5.0, 1.9, 0.6]))
+        .map(|p| Tile::on(&skull, p, flow(p), [6.4, 2.5, 0.8]))
         .collect();
     Coat::new(tiles, FEATHER)
 }
@@ -257,30 +258,30 @@ fn head_feathers() -> Coat {
 fn wing_feathers() -> Coat {
     // (height of the roots, count across, length, half width, lift)
     let rows = [
-        (53.0, 5, 5.0, 2.2, 0.6),
-        (50.0, 6, 5.5, 2.2, 0.7),
-        (46.8, 7, 6.0, 2.2, 0.7),
-        (43.4, 8, 6.5, 2.2, 0.8),
-        (39.8, 8, 7.5, 2.2, 0.9),
-        (35.5, 9, 10.0, 1.95, 0.95),
-        (29.0, 9, 14.0, 1.9, 1.0),
-        (20.5, 8, 17.0, 1.9, 1.0),
+        (52.5, 5, 6.0, 2.6, 0.8),
+        (48.6, 7, 7.0, 2.8, 0.9),
+        (44.3, 8, 7.5, 2.8, 1.0),
+        (39.6, 8, 8.5, 2.9, 1.0),
+        (34.5, 8, 11.0, 2.8, 1.1),
+        (27.5, 8, 15.0, 2.6, 1.2),
+        (18.0, 7, 17.0, 2.5, 1.2),
     ];
     let mut tiles = Vec::new();
     for (j, (z, count, length, half, lift)) in rows.into_iter().enumerate() {
-        let slant = 0.38 * (32.0 - z);
+        let centre = v(15.6, 3.5 + 0.38 * (32.0 - z), z);
         for i in 0..count {
             let across = (f64::from(i) + 0.5 * (j % 2) as f64) / f64::from(count - 1) - 0.5;
-            let y = 3.5 + slant + across * 21.0;
-            let lower = 0.25 * (y - 3.5 - slant);
-            if let Some(root) = march(&wing, v(45.0, y, z - lower), v(-1.0, 0.0, 0.0)) {
-                tiles.push(Tile::on(
-                    &wing,
-                    root,
-                    v(-0.1, 0.4, -1.0),
-                    [length, half, lift],
-                ));
-            }
+            let (sin, cos) = (across * 2.7).sin_cos();
+            let from = centre + v(11.0 * cos, 22.0 * sin, -4.0 * sin);
+            let Some(root) = march(&wing, from, (centre - from).normalize()) else {
+                continue;
+            };
+            tiles.push(Tile::on(
+                &wing,
+                root,
+                v(-0.1, 0.4, -1.0),
+                [length, half, lift],
+            ));
         }
     }
     Coat::new(tiles, VANE)

@@ -17,16 +17,18 @@ pub fn turtle() -> Creature {
         let t = turn(-TURN) * p;
         let m = mirror_y(t);
         let shell = shell(t) - shell_relief(&scutes, t);
-        let flesh = flesh(t) - skin.pebbles(t, skin_depth(m), 0.75) - wrinkles(t);
+        let flesh = flesh(t) - skin.pebbles(t, skin_depth(m), 1.0) - wrinkles(t);
         let mut d = join(shell, flesh, 0.7);
         d = join(d, face_parts(m, t), 0.4);
+        let line = t.z - 20.0 - 0.12 * (46.0 - t.x) - 0.02 * (t.x - 44.0).powi(2);
+        d += 0.8 * bell(line, 0.0, 0.6) * step(36.5, 38.5, t.x);
         join(d, claws(m), 0.4)
     };
     let edge = |p: DVec3| {
         let t = mirror_y(turn(-TURN) * p);
         let face = 1.0 - 0.25 * step(12.0, 6.0, t.distance(EYE));
-        0.55 * face
-            * (1.0 + 0.7 * step(4.0, 16.0, p.y))
+        0.7 * face
+            * (1.0 + 1.2 * step(2.0, 14.0, p.y))
             * (1.0 + 0.5 * step(6.0, 3.0, p.z) * step(14.0, 9.0, t.y))
     };
     Creature {
@@ -101,7 +103,7 @@ fn scutes() -> Mosaic {
     for x in [21.5, 11.5, -1.0, -13.5, -23.5] {
         seeds.push((x, 0.0));
     }
-    for (x, y) in [(17.0, 13.5), (5.5, 16.5), (-7.5, 16.5), (-19.0, 13.0)] {
+    for (x, y) in [(18.5, 14.0), (5.5, 17.5), (-8.5, 17.5), (-21.0, 13.5)] {
         seeds.push((x, y));
         seeds.push((x, -y));
     }
@@ -115,21 +117,21 @@ fn scutes() -> Mosaic {
 /// Height of the shell's relief: plates that rise to their middle with rings of growth, and the marginal plates.
 fn shell_relief(scutes: &Mosaic, p: DVec3) -> f64 {
     let angle = (p.y / 26.5).atan2((p.x + 1.5) / 32.5);
-    let upper = step(15.2, 16.8, p.z);
-    let lower = step(16.0, 14.6, p.z) * step(8.2, 9.6, p.z);
+    let upper = step(17.4, 18.8, p.z);
+    let lower = step(18.0, 16.6, p.z) * step(7.6, 9.2, p.z);
     let plates = scutes.border(p, 1.2).map_or(0.0, |(inner, _)| {
-        let d = inner.min((p.z - 15.8) * 1.1).max(0.0);
-        let swell = 1.2 * step(0.0, 1.3, d) + 0.9 * step(0.5, 9.0, d);
-        let rings = 0.3
-            * (d * std::f64::consts::TAU / 1.75 + 2.6).sin()
+        let d = inner.min((p.z - 18.0) * 1.1).max(0.0);
+        let swell = 1.2 * step(0.0, 1.5, d) + 0.9 * step(0.5, 9.0, d);
+        let rings = 0.36
+            * (d * std::f64::consts::TAU / 2.6 + 2.6).sin()
             * step(0.9, 1.8, d)
-            * step(8.5, 6.5, d);
+            * step(10.5, 8.0, d);
         swell + rings
     });
-    let part = (angle / std::f64::consts::TAU * 24.0).rem_euclid(1.0) - 0.5;
-    let seam = (0.5 - part.abs()) * 7.7;
-    let margin = 0.8 * step(0.0, 0.9, seam)
-        + 0.16 * (seam * std::f64::consts::TAU / 1.7).cos() * step(0.8, 1.5, seam);
+    let part = (angle / std::f64::consts::TAU * 22.0).rem_euclid(1.0) - 0.5;
+    let seam = join((0.5 - part.abs()) * 8.4, 17.6 - p.z, 1.0);
+    let margin = 0.9 * step(0.0, 1.3, seam)
+        + 0.3 * (seam * std::f64::consts::TAU / 2.6 + 2.6).sin() * step(0.9, 1.6, seam);
     upper * plates + lower * margin
 }
 
@@ -138,7 +140,7 @@ fn skin_cells() -> Mosaic {
         let m = mirror_y(p);
         let head = p.x > 34.0;
         let hidden = p.x.abs() < 18.0 && m.y < 14.0;
-        (!hidden).then_some(if head { 2.3 } else { 2.9 })
+        (!hidden).then_some(if head { 2.6 } else { 3.6 })
     };
     Mosaic::new(
         scatter(&flesh, v(-42., -30., 0.), v(50., 30., 32.), &gap),
@@ -165,11 +167,12 @@ fn wrinkles(p: DVec3) -> f64 {
 
 fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let out = v(0.28, 0.93, 0.25).normalize();
-    let side = (m - EYE) - out * (m - EYE).dot(out);
-    let r = side.length();
-    let pupil = -0.5 * step(1.5, 0.9, r);
-    let eye = ball(m, EYE, 2.7) - pupil * step(0.0, 1.0, (m - EYE).dot(out));
-    let lid = ring(m, EYE + out * 1.3, out, 2.6, 0.8);
+    // The lids are a ring flattened from above and below, which gives the eye its almond shape.
+    let gaze = (m - EYE) * v(1.0, 1.0, 1.3);
+    let r = (gaze - out * gaze.dot(out)).length();
+    let dimple = 0.45 * step(1.7, 0.5, r) * step(0.0, 1.0, gaze.dot(out));
+    let eye = ball(m, EYE - out * 0.2, 2.8) + dimple;
+    let lid = ring(gaze, out * 1.1, out, 3.0, 0.85) / 1.15;
     let brow = cone(m, v(37.0, 5.2, 27.4), v(43.5, 4.0, 26.8), 1.5, 1.0);
     // The beak: a plate over the snout whose lower edge is the mouth line, hooked at the front.
     let upper = meet(
