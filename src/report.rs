@@ -63,6 +63,14 @@ pub struct ViewReport {
     /// Depth groups: connected patches of one model component on one support.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub groups: Option<usize>,
+    /// Triangles of the view map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells: Option<usize>,
+    /// Largest distance a point was moved along its ray to stay within its layer after solving, millimetres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamp_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<ProgramReport>,
     /// Share of the rays at the models that meet the forest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hit_share: Option<f64>,
@@ -87,6 +95,20 @@ pub struct NormalError {
     pub mean: f64,
     pub median: f64,
     pub p90: f64,
+}
+
+/// The quadratic program of one view and what the solver reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ProgramReport {
+    pub variables: usize,
+    pub rows: usize,
+    pub active_rows: usize,
+    pub iterations: u32,
+    /// Scaled so that the mean diagonal of the quadratic form is 1: comparable between runs of one scene only.
+    pub objective: f64,
+    pub primal_residual: f64,
+    pub dual_residual: f64,
+    pub duality_gap_rel: f64,
 }
 
 /// The finished forest.

@@ -20,26 +20,37 @@ const MAX_PAIRS: usize = 4000;
 /// Rounds to f32 and mends what that broke.
 pub fn mend(mesh: &TriMesh) -> TriMesh {
     let mut mesh = snap_to_f32(mesh).mesh;
+    let mut best: Option<(usize, TriMesh)> = None;
     for round in 0..MAX_ROUNDS {
         let pairs = self_intersections(&mesh, MAX_PAIRS);
-        let mut faces: Vec<u32> = pairs.iter().flatten().copied().chain(flat_faces(&mesh)).collect();
-        if faces.is_empty() || pairs.len() >= MAX_PAIRS {
+        let flat: Vec<u32> = flat_faces(&mesh).collect();
+        let trouble = pairs.len() + flat.len();
+        if best.as_ref().is_none_or(|b| trouble < b.0) {
+            best = Some((trouble, mesh.clone()));
+        }
+        if trouble == 0 || pairs.len() >= MAX_PAIRS {
             break;
         }
-        faces.sort_unstable();
-        faces.dedup();
-        let mut surgery = Surgery::new(&mut mesh);
-        // The thinnest faces first: they are the cause, the stout ones they cut are not.
-        faces.sort_by(|a, b| surgery.height(*a).total_cmp(&surgery.height(*b)));
         let reach = REACH_MM * (0.25 + 0.25 * round.min(3) as f64);
-        let changed = faces.iter().filter(|f| surgery.treat(**f, reach)).count();
-        drop_collapsed(&mut mesh);
-        drop_unreferenced(&mut mesh);
-        if changed == 0 {
+        if !treat_all(&mut mesh, &pairs, flat, reach) {
             break;
         }
     }
-    mesh
+    best.map_or(mesh, |b| b.1)
+}
+
+/// Treats the thinner face of every pair (the cause; the stout one is only in its way) and the flat ones, thinnest first.
+fn treat_all(mesh: &mut TriMesh, pairs: &[[u32; 2]], flat: Vec<u32>, reach: f64) -> bool {
+    let mut surgery = Surgery::new(mesh);
+    let thinner = |p: &[u32; 2]| if surgery.height(p[0]) <= surgery.height(p[1]) { p[0] } else { p[1] };
+    let mut faces: Vec<u32> = pairs.iter().map(thinner).chain(flat).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    faces.sort_by(|a, b| surgery.height(*a).total_cmp(&surgery.height(*b)));
+    let changed = faces.iter().filter(|f| surgery.treat(**f, reach)).count();
+    drop_collapsed(mesh);
+    drop_unreferenced(mesh);
+    changed > 0
 }
 
 /// Faces whose corners lie on one line.

@@ -16,7 +16,7 @@ mod tidy;
 
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
-use crate::mesh::{Edges, TriMesh};
+use crate::mesh::{DisjointSets, Edges, TriMesh};
 use crate::support::{Support, SupportKind};
 use glam::{DVec2, DVec3};
 
@@ -53,6 +53,14 @@ pub struct ViewMap {
 impl ViewMap {
     pub fn triangle(&self, cell: usize) -> [DVec2; 3] {
         self.cells[cell].corners.map(|p| self.points[p as usize])
+    }
+
+    /// Number of connected regions of cells that are `inside`.
+    pub fn regions(&self, inside: impl Fn(usize) -> bool) -> usize {
+        let mut sets = DisjointSets::new(self.cells.len());
+        let pairs = (0..self.cells.len()).flat_map(|c| self.neighbours[c].iter().flatten().map(move |n| (c, *n)));
+        pairs.filter(|(c, n)| inside(*c) && inside(*n as usize)).for_each(|(c, n)| sets.join(c as u32, n));
+        (0..self.cells.len()).filter(|c| inside(*c) && sets.root(*c as u32) == *c as u32).count()
     }
 
     /// Mean of three image points.
