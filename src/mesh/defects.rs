@@ -44,6 +44,28 @@ pub enum DefectKind {
     UnreferencedVertex,
 }
 
+impl DefectKind {
+    /// A stable name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoFaces => "no_faces",
+            Self::NonFinite => "non_finite",
+            Self::BadIndex => "bad_index",
+            Self::RepeatedIndex => "repeated_index",
+            Self::ZeroArea => "zero_area",
+            Self::DuplicateFace => "duplicate_face",
+            Self::OpenEdge => "open_edge",
+            Self::CrowdedEdge => "crowded_edge",
+            Self::MixedWinding => "mixed_winding",
+            Self::BowtieVertex => "bowtie_vertex",
+            Self::SelfIntersection => "self_intersection",
+            Self::InsideOut => "inside_out",
+            Self::MisplacedShell => "misplaced_shell",
+            Self::UnreferencedVertex => "unreferenced_vertex",
+        }
+    }
+}
+
 /// One kind of defect of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
@@ -233,9 +255,12 @@ fn face_defects(mesh: &TriMesh) -> Vec<Defect> {
     defects
 }
 
+/// Whether an edge, given by its half-edges, has a defect.
+type EdgeTest = fn(&[HalfEdge]) -> bool;
+
 fn edge_defects(mesh: &TriMesh, edges: &Edges) -> Vec<Defect> {
     let mut defects = Vec::new();
-    let kinds: [(DefectKind, fn(&[HalfEdge]) -> bool); 3] = [
+    let kinds: [(DefectKind, EdgeTest); 3] = [
         (DefectKind::OpenEdge, |e| e.len() == 1),
         (DefectKind::CrowdedEdge, |e| e.len() > 2),
         (DefectKind::MixedWinding, |e| {

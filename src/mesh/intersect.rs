@@ -11,8 +11,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use robust::{Coord, Coord3D};
 
-/// Faces tested between two looks at the limit: large enough to keep all cores busy.
-const BLOCK: usize = 1 << 14;
+/// Faces tested between two looks at the limit. Larger blocks cost seconds past the limit where all faces are in one
+/// place; smaller ones cost waiting at their ends.
+const BLOCK: usize = 1 << 10;
 
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.

@@ -2,13 +2,16 @@
 
 pub mod boxes;
 pub mod defects;
+pub mod gate;
 pub mod intersect;
+pub mod polygon;
 pub mod shells;
 pub mod solid;
 pub mod topology;
 pub mod weld;
 
 pub use defects::{Defect, DefectKind, check};
+pub use gate::gate;
 pub use intersect::self_intersections;
 pub use solid::Solid;
 pub use topology::{face_components, face_neighbours, vertex_parts};
@@ -44,9 +47,14 @@ impl TriMesh {
         self.area_vector(face).normalize_or_zero()
     }
 
-    /// Signed volume in cubic millimetres: meaningful for closed meshes.
+    /// Signed volume in cubic millimetres: meaningful for closed meshes. Keeps its digits far from the origin.
     pub fn volume(&self) -> f64 {
-        (0..self.faces.len()).map(|f| { let [a, b, c] = self.corners(f); a.dot(b.cross(c)) }).sum::<f64>() / 6.0
+        let origin = self.vertices.first().copied().unwrap_or_default();
+        let tetrahedron = |f| {
+            let [a, b, c] = self.corners(f).map(|v| v - origin);
+            a.dot(b.cross(c))
+        };
+        (0..self.faces.len()).map(tetrahedron).sum::<f64>() / 6.0
     }
 
     /// Surface area in square millimetres.

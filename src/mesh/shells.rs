@@ -27,6 +27,10 @@ impl Shell {
     }
 }
 
+/// More shells than this are not looked at for their place (each costs a ray, and a row of them quadratically many
+/// hits): those facing inwards are then taken for cavities.
+const MAX_PLACED: usize = 20_000;
+
 /// The shells by rising first face.
 pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
     let component = face_components(mesh);
@@ -44,7 +48,11 @@ pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
         let [p, q, r] = mesh.corners(face).map(|v| v - origin);
         shells[c as usize].volume += p.dot(q.cross(r)) / 6.0;
     }
-    if shells.len() > 1 {
+    if shells.len() > MAX_PLACED {
+        for shell in &mut shells {
+            shell.winding = i32::from(shell.volume < 0.0);
+        }
+    } else if shells.len() > 1 {
         let boxes: Vec<Box3> = (0..mesh.faces.len())
             .map(|f| Box3::of_face(mesh, f))
             .collect();

@@ -74,7 +74,18 @@ fn equal_leaders(vertices: &[DVec3], eligible: &[bool]) -> Vec<u32> {
 
 /// For each eligible vertex the nearest cluster leader within the tolerance, or itself as a new leader.
 fn near_leaders(vertices: &[DVec3], tolerance: f64, eligible: &[bool]) -> Vec<u32> {
-    let cell = |p: DVec3| (p / tolerance).floor().to_array().map(|x| x as i64);
+    // From the corner of the cloud, so that cell numbers far from the origin do not run out of an i64.
+    let corner = vertices
+        .iter()
+        .copied()
+        .reduce(DVec3::min)
+        .unwrap_or_default();
+    let cell = |p: DVec3| {
+        ((p - corner) / tolerance)
+            .floor()
+            .to_array()
+            .map(|x| x as i64)
+    };
     // Looked up only, never iterated: no hash order reaches the result.
     let mut leaders_in: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut leader: Vec<u32> = (0..vertices.len() as u32).collect();
@@ -231,5 +242,6 @@ fn cancel_folds(mesh: &mut TriMesh) -> usize {
 
 /// Whether the indices are a rotation of their rising order.
 fn is_even([a, b, c]: [u32; 3]) -> bool {
-    (a < b && b < c) || (b < c && c < a) || (c < a && a < b)
+    let falls = [a > b, b > c, c > a];
+    falls.iter().filter(|f| **f).count() == 1
 }

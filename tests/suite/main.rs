@@ -3,5 +3,7 @@
 mod diagram;
 mod formats;
 mod golden;
+mod hostile;
+mod meshes;
 mod render;
 mod shapes;

@@ -1,0 +1,97 @@
+//! Places and numbers in text files: lines of any ending, excerpts that are safe to print, coordinates that are finite.
+
+use crate::diag::{Diagnostic, Place};
+
+/// Longest excerpt of a user's line in a message, characters.
+const MAX_EXCERPT: usize = 80;
+
+/// Coordinates beyond this many millimetres (a thousand million kilometres) are nobody's model.
+pub const LARGEST_COORDINATE: f64 = 1e15;
+
+/// Lines of a text file with their numbers, 1-based. Ends a line at `\n`, `\r\n` or a lone `\r`.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut rest = bytes;
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        number += 1;
+        let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
+        let line = &rest[..end.unwrap_or(rest.len())];
+        rest = match end {
+            Some(e) if rest[e..].starts_with(b"\r\n") => &rest[e + 2..],
+            Some(e) => &rest[e + 1..],
+            None => &[],
+        };
+        Some((number, line))
+    })
+}
+
+/// The text without a byte order mark.
+pub fn without_bom(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
+/// Shortened, one line, printable characters only.
+pub fn excerpt(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * MAX_EXCERPT)]);
+    let mut shown: String = text
+        .trim()
+        .chars()
+        .take(MAX_EXCERPT)
+        .map(|c| if c.is_control() { '\u{FFFD}' } else { c })
+        .collect();
+    if text.trim().chars().count() > MAX_EXCERPT || bytes.len() > 4 * MAX_EXCERPT {
+        shown.push_str("...");
+    }
+    shown
+}
+
+/// An error at a line of a text file.
+pub fn at_line(file: &str, line: usize, text: &[u8], message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(message).at(Place::Line {
+        file: file.to_owned(),
+        line,
+        excerpt: excerpt(text),
+    })
+}
+
+/// An error at a byte of a binary file.
+pub fn at_byte(file: &str, offset: usize, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(message).at(Place::Byte {
+        file: file.to_owned(),
+        offset: offset as u64,
+    })
+}
+
+/// A finite coordinate.
+///
+/// # Errors
+/// What is wrong with it, in the words of a message that goes on after "a coordinate that is".
+pub fn coordinate(word: &[u8]) -> Result<f64, String> {
+    let text = std::str::from_utf8(word).ok().filter(|t| t.is_ascii());
+    let value = text.and_then(|t| t.parse::<f64>().ok());
+    match value {
+        Some(v) => check_coordinate(v),
+        None if word.contains(&b',') => Err(format!(
+            "not a number: `{}` (decimals are written with a point)",
+            excerpt(word)
+        )),
+        None => Err(format!("not a number: `{}`", excerpt(word))),
+    }
+}
+
+/// A coordinate that is finite and not absurdly large.
+///
+/// # Errors
+/// As [`coordinate`].
+pub fn check_coordinate(value: f64) -> Result<f64, String> {
+    if !value.is_finite() {
+        Err("not a finite number".to_owned())
+    } else if value.abs() > LARGEST_COORDINATE {
+        Err(format!("too large: {value:.0e}, more than 1e15"))
+    } else {
+        Ok(value)
+    }
+}

@@ -1,0 +1,212 @@
+//! The XML of a 3MF model part: meshes, components and build items.
+//!
+//! Takes the inflated bytes of one part; gives what it says, not yet put together. Elements of other namespaces and
+//! unknown ones are passed over; document type declarations are refused, as the standard asks.
+
+use crate::formats::text::{coordinate, excerpt};
+use crate::mesh::TriMesh;
+use glam::{DMat4, DVec3, DVec4};
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+
+/// One part.
+#[derive(Debug, Default)]
+pub struct ModelPart {
+    /// Millimetres per unit of its coordinates.
+    pub unit_mm: f64,
+    pub objects: Vec<XmlObject>,
+    pub items: Vec<Instance>,
+}
+
+#[derive(Debug)]
+pub struct XmlObject {
+    pub id: u32,
+    pub name: String,
+    pub mesh: TriMesh,
+    pub components: Vec<Instance>,
+}
+
+/// An object put somewhere.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    pub object: u32,
+    /// The part it is in, if another one (production extension).
+    pub part: Option<String>,
+    pub transform: DMat4,
+}
+
+/// Where in the part, bytes, and why.
+pub type XmlError = (u64, String);
+
+/// # Errors
+/// Broken XML, a document type, numbers that are none, indices out of range.
+pub fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
+    let mut reader = Reader::from_reader(bytes);
+    let mut part = ModelPart {
+        unit_mm: 1.0,
+        ..ModelPart::default()
+    };
+    let mut depth = 0usize;
+    loop {
+        let at = reader.buffer_position();
+        let event = reader
+            .read_event()
+            .map_err(|e| (reader.error_position(), format!("broken XML: {e}")))?;
+        match event {
+            Event::Start(e) => {
+                depth += 1;
+                element(&mut part, &e).map_err(|why| (at, why))?;
+            }
+            Event::Empty(e) => {
+                element(&mut part, &e).map_err(|why| (at, why))?;
+                close(&part, e.local_name().as_ref()).map_err(|why| (at, why))?;
+            }
+            Event::End(e) => {
+                depth = depth.saturating_sub(1);
+                close(&part, e.local_name().as_ref()).map_err(|why| (at, why))?;
+            }
+            Event::DocType(_) => {
+                let why = "a document type declaration, which 3MF forbids (entity attacks)";
+                return Err((at, why.to_owned()));
+            }
+            Event::Eof if depth > 0 => return Err((at, "the XML ends too early".to_owned())),
+            Event::Eof => return Ok(part),
+            _ => {}
+        }
+    }
+}
+
+fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
+    match e.local_name().as_ref() {
+        b"model" => {
+            if let Some(unit) = attribute(e, b"unit")? {
+                part.unit_mm = unit_mm(&unit)?;
+            }
+        }
+        b"object" => part.objects.push(XmlObject {
+            id: whole(e, b"id")?,
+            name: attribute(e, b"name")?.unwrap_or_default(),
+            mesh: TriMesh::default(),
+            components: Vec::new(),
+        }),
+        b"vertex" => {
+            if let Some(object) = part.objects.last_mut() {
+                let p = DVec3::new(number(e, b"x")?, number(e, b"y")?, number(e, b"z")?);
+                object.mesh.vertices.push(p);
+            }
+        }
+        b"triangle" => {
+            if let Some(object) = part.objects.last_mut() {
+                let face = [whole(e, b"v1")?, whole(e, b"v2")?, whole(e, b"v3")?];
+                object.mesh.faces.push(face);
+            }
+        }
+        b"component" => {
+            let instance = instance(e)?;
+            if let Some(object) = part.objects.last_mut() {
+                object.components.push(instance);
+            }
+        }
+        b"item" => part.items.push(instance(e)?),
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Triangles may only come after all vertices of their mesh, so they are checked when it ends.
+fn close(part: &ModelPart, name: &[u8]) -> Result<(), String> {
+    let Some(object) = part.objects.last().filter(|_| name == b"object") else {
+        return Ok(());
+    };
+    let count = object.mesh.vertices.len();
+    let bad = object
+        .mesh
+        .faces
+        .iter()
+        .flatten()
+        .find(|v| **v as usize >= count);
+    match bad {
+        Some(v) => Err(format!(
+            "object {}: a triangle uses vertex {v}, but there are {count} vertices (counted from 0)",
+            object.id
+        )),
+        None => Ok(()),
+    }
+}
+
+fn instance(e: &BytesStart) -> Result<Instance, String> {
+    Ok(Instance {
+        object: whole(e, b"objectid")?,
+        part: attribute(e, b"path")?,
+        transform: match attribute(e, b"transform")? {
+            Some(text) => transform(&text)?,
+            None => DMat4::IDENTITY,
+        },
+    })
+}
+
+/// Twelve numbers, three for each axis and three for the origin.
+fn transform(text: &str) -> Result<DMat4, String> {
+    let mut m = [0.0; 12];
+    let mut words = text.split_ascii_whitespace();
+    for value in &mut m {
+        let word = words.next().unwrap_or_default();
+        *value = coordinate(word.as_bytes())
+            .map_err(|why| format!("a transform with a value that is {why}"))?;
+    }
+    if words.next().is_some() {
+        return Err("a transform with more than 12 values".to_owned());
+    }
+    let column = |k: usize, w: f64| DVec4::new(m[k], m[k + 1], m[k + 2], w);
+    Ok(DMat4::from_cols(
+        column(0, 0.0),
+        column(3, 0.0),
+        column(6, 0.0),
+        column(9, 1.0),
+    ))
+}
+
+fn unit_mm(unit: &str) -> Result<f64, String> {
+    Ok(match unit {
+        "micron" => 0.001,
+        "millimeter" => 1.0,
+        "centimeter" => 10.0,
+        "inch" => 25.4,
+        "foot" => 304.8,
+        "meter" => 1000.0,
+        _ => return Err(format!("unknown unit `{}`", excerpt(unit.as_bytes()))),
+    })
+}
+
+/// The value of an attribute by its local name, unescaped.
+fn attribute(e: &BytesStart, name: &[u8]) -> Result<Option<String>, String> {
+    for attribute in e.attributes() {
+        let attribute = attribute.map_err(|e| format!("broken XML: {e}"))?;
+        if attribute.key.local_name().as_ref() == name {
+            let value = attribute
+                .unescape_value()
+                .map_err(|e| format!("broken XML: {e}"))?;
+            return Ok(Some(value.into_owned()));
+        }
+    }
+    Ok(None)
+}
+
+fn wanted(e: &BytesStart, name: &[u8]) -> Result<String, String> {
+    attribute(e, name)?.ok_or_else(|| {
+        let element = excerpt(e.local_name().as_ref());
+        format!("a `{element}` without `{}`", excerpt(name))
+    })
+}
+
+fn number(e: &BytesStart, name: &[u8]) -> Result<f64, String> {
+    coordinate(wanted(e, name)?.trim_ascii().as_bytes())
+        .map_err(|why| format!("a coordinate that is {why}"))
+}
+
+fn whole(e: &BytesStart, name: &[u8]) -> Result<u32, String> {
+    let text = wanted(e, name)?;
+    text.trim_ascii()
+        .parse()
+        .map_err(|_| format!("not a whole number: `{}`", excerpt(text.as_bytes())))
+}
