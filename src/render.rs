@@ -36,6 +36,9 @@ const HEAT: [[u8; 3]; 5] = [
     [0x8C, 0x14, 0x34],
 ];
 
+/// Share of a face's own colour in the forest's panel: enough to tell the views apart, too little to hide the shading.
+const TINT: f64 = 0.3;
+
 /// A ray that should have met the forest and did not.
 const MISS: [u8; 3] = [0x1A, 0x1A, 0x1A];
 
@@ -52,7 +55,7 @@ pub struct Likeness {
 }
 
 /// Draws and measures one view. `size_px` is the side of one of the three panels (16 to 2048), a panel being as in
-/// [`camera`]. `colours`, one per face of the forest, tint its panel.
+/// [`camera`]. `colours`, one per face of the forest, tint its panel lightly.
 pub fn view_picture(
     view: &View,
     forest: &TriMesh,
@@ -144,10 +147,10 @@ impl Look {
         lights: &Lights,
     ) -> [Rgb; 3] {
         let tint = |face: usize| {
-            colours
-                .and_then(|c| c.get(face))
-                .copied()
-                .unwrap_or(shading::PLASTER)
+            let colour = colours.and_then(|c| c.get(face)).copied();
+            colour.map_or(shading::PLASTER, |c| {
+                shading::mixed(shading::PLASTER, c, TINT)
+            })
         };
         let shade =
             |mesh: &TriMesh, face: usize, colour: [u8; 3]| lights.shade(mesh.normal(face), colour);

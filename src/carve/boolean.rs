@@ -2,10 +2,10 @@
 
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
-use manifold_rust::csg_tree::CsgNode;
 use manifold_rust::linalg::{Vec2, Vec3};
 use manifold_rust::manifold::Manifold;
-use manifold_rust::types::{Error, MeshGL64, OpType};
+use manifold_rust::types::{Error, MeshGL64};
+use rayon::prelude::*;
 
 /// A solid the library has accepted. Operations keep f64 coordinates.
 #[derive(Clone)]
@@ -47,9 +47,12 @@ impl Boolean {
         Self::checked(Manifold::hull(&points))
     }
 
-    pub fn union(parts: Vec<Self>) -> Result<Self, BooleanError> {
-        let leaves = parts.into_iter().map(|m| CsgNode::leaf(m.0.into_impl())).collect();
-        Self::checked(Manifold::from_impl(CsgNode::op_n(OpType::Add, leaves).evaluate()))
+    /// The union of all parts, in pairs, pairs of pairs and so on: the order is fixed, whatever the thread count.
+    pub fn union(mut parts: Vec<Self>) -> Result<Self, BooleanError> {
+        while parts.len() > 1 {
+            parts = parts.par_chunks(2).map(|pair| if let [a, b] = pair { a.plus(b) } else { Ok(pair[0].clone()) }).collect::<Result<_, _>>()?;
+        }
+        Ok(parts.pop().unwrap_or_else(|| Self(Manifold::empty())))
     }
 
     pub fn plus(&self, other: &Self) -> Result<Self, BooleanError> {

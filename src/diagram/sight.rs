@@ -109,18 +109,22 @@ impl Sight {
         let (SupportKind::Pillar { axis, .. }, Some(layer)) = (&support.kind, support.layer) else {
             return None;
         };
-        let limits = |angle: f64, hit: f64| self.limits(layer, *axis, angle, hit);
-        let hits = || {
-            run.hits
-                .iter()
-                .filter(|(a, t)| limits(*a, *t).iter().all(|x| x.is_finite()))
+        // The limits of a flat slab are straight: the ends tell all.
+        let step = match layer.datum {
+            Datum::AxisPlane => run.hits.len().saturating_sub(1).max(1),
+            Datum::Surface => 1,
         };
-        let line = hits()
-            .map(|&(a, t)| self.point(a, limits(a, t)[1]))
+        let rays = run.hits.iter().step_by(step);
+        let limits = rays.map(|&(angle, hit)| (angle, self.limits(layer, *axis, angle, hit)));
+        let limits: Vec<(f64, [f64; 3])> = limits
+            .filter(|(_, d)| d.iter().all(|x| x.is_finite()))
             .collect();
-        let front = hits().map(|&(a, t)| self.point(a, limits(a, t)[0]));
-        let back = hits().rev().map(|&(a, t)| self.point(a, limits(a, t)[2]));
-        Some((front.chain(back).collect(), line))
+        let at = |k: usize| move |&(angle, d): &(f64, [f64; 3])| self.point(angle, d[k]);
+        let room = limits
+            .iter()
+            .map(at(0))
+            .chain(limits.iter().rev().map(at(2)));
+        Some((room.collect(), limits.iter().map(at(1)).collect()))
     }
 
     /// Distances on one ray of the layer's front, datum and back.

@@ -18,13 +18,19 @@ use std::fmt;
 pub struct Inspection {
     pub file: String,
     pub format: &'static str,
-    /// Whether each body by itself can be printed. (Bodies of one file may share walls on purpose: colours.)
-    pub printable: bool,
+    printable: bool,
     /// One for STL, OBJ and PLY, each placed object for 3MF.
     pub bodies: Vec<BodyReport>,
     /// All bodies as one surface; absent if there is one body only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub together: Option<BodyReport>,
+}
+
+impl Inspection {
+    /// Whether each body by itself can be printed. (Bodies of one file may share walls on purpose: colours.)
+    pub fn printable(&self) -> bool {
+        self.printable
+    }
 }
 
 /// Figures of one surface.

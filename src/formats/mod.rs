@@ -3,15 +3,19 @@
 //! Readers and writers work on bytes; they touch no file and no clock, and the same input gives the same bytes.
 //! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
 
+mod glb;
 pub mod inspect;
 pub mod read;
 mod read_3mf;
 mod read_obj;
 mod read_ply;
 mod read_stl;
+mod stl;
 mod text;
+mod threemf;
 mod xml_3mf;
 
+pub use glb::{Camera, write_glb};
 pub use inspect::{Inspection, inspect};
 pub use read::{load_model, read_mesh};
 mod glb;

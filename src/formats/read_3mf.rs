@@ -75,9 +75,10 @@ impl<'a> Container<'a> {
         let archive = ZipArchive::new(Cursor::new(bytes))
             .map_err(|e| format!("not a readable zip archive, which a 3MF file is: {e}"))?;
         for name in archive.file_names() {
-            let leaves = name.starts_with('/')
-                || name.contains(['\\', ':'])
-                || name.split('/').any(|step| step == "..");
+            let mut steps = name.split(['/', '\\']);
+            let leaves = name.starts_with(['/', '\\'])
+                || name.as_bytes().get(1) == Some(&b':')
+                || steps.any(|step| step == "..");
             if leaves {
                 let name = excerpt(name.as_bytes());
                 return Err(format!(
@@ -91,12 +92,12 @@ impl<'a> Container<'a> {
         })
     }
 
-    /// The name of an entry, in any case, with or without a leading slash.
+    /// The name of an entry, in any case, with either slash, with or without a leading one.
     fn entry(&self, path: &str) -> Option<String> {
         let path = path.trim_start_matches('/');
         self.archive
             .file_names()
-            .find(|name| name.eq_ignore_ascii_case(path))
+            .find(|name| name.replace('\\', "/").eq_ignore_ascii_case(path))
             .map(str::to_owned)
     }
 

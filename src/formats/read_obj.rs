@@ -161,6 +161,8 @@ impl<'a> Scan<'a> {
                 }
                 Ok(())
             }
+            // Old editors end files with a Ctrl-Z.
+            b"\x1A" => Ok(()),
             _ if IGNORED.contains(&keyword) => Ok(()),
             _ if keyword.iter().all(|b| b.is_ascii_graphic()) => {
                 self.unknown.push((number, excerpt(keyword)));

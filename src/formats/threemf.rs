@@ -11,6 +11,9 @@ use std::io::{Cursor, Write as _};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+/// Of deflate, 1 to 9. On 600k triangles 6 takes 1.7 times as long and saves 3 %; 2 saves a seventh of the time and costs 11 %.
+const LEVEL: i64 = 4;
+
 /// What a 3MF file says about itself. Empty texts are left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata {
@@ -111,17 +114,19 @@ pub fn write_3mf(parts: &[Part], meta: &Metadata, thumbnail_png: Option<&[u8]>) 
 
 /// A zip whose bytes depend on the entries and the time given alone.
 fn pack(entries: &[(&str, Vec<u8>)], created: Option<ZipTime>) -> zip::result::ZipResult<Vec<u8>> {
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
+    let plain = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
         .last_modified_time(created.map_or_else(DateTime::default, ZipTime::zip))
         .unix_permissions(0o644);
+    let packed = plain
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(LEVEL));
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in entries {
-        let stored = name.ends_with(".png");
-        let options = if stored {
-            options.compression_method(CompressionMethod::Stored)
+        let options = if name.ends_with(".png") {
+            plain
         } else {
-            options
+            packed
         };
         zip.start_file(
             *name,

@@ -27,9 +27,10 @@ const NOTHING: f64 = 1e-12;
 /// A mesh without faces, without extent, or closed but without thickness.
 pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
     let place = || Place::File(file.to_owned());
-    let mut notes = Vec::new();
+    let mut notes = Notes::default();
     let mesh = clean(mesh, &mut notes).map_err(|why| Diagnostic::error(why).at(place()))?;
-    let left: Vec<String> = leftovers(&mesh);
+    let left = leftovers(&mesh);
+    let notes = notes.0;
     let mut warnings = Vec::new();
     if !notes.is_empty() || !left.is_empty() {
         let mut message = String::new();
@@ -56,69 +57,52 @@ pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
     })
 }
 
-fn clean(mut mesh: TriMesh, notes: &mut Vec<String>) -> Result<TriMesh, String> {
-    let mut note = |count: usize, one: &str, many: &str| {
+/// What was done, in the words of a message.
+#[derive(Default)]
+struct Notes(Vec<String>);
+
+impl Notes {
+    fn add(&mut self, verb: &str, count: usize, [one, many]: [&str; 2]) {
         if count > 0 {
-            notes.push(format!(
-                "{} {count} {}",
-                one.split(' ').next().unwrap_or(one),
-                {
-                    let rest = if count == 1 { one } else { many };
-                    rest.split_once(' ').map_or("", |r| r.1)
-                }
-            ));
+            let noun = if count == 1 { one } else { many };
+            self.0.push(format!("{verb} {count} {noun}"));
         }
-    };
+    }
+}
+
+fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<TriMesh, String> {
     let stray = drop_unreferenced(&mut mesh);
-    note(
-        stray,
-        "dropped vertex that no face uses",
-        "dropped vertices that no face uses",
-    );
     let size = extent(&mesh)?;
     let closed_as_read = Edges::new(&mesh).iter().all(|e| e.len() > 1);
-    mesh = weld(&mesh, 0.0).mesh;
-    let (sealed, joined) = seal_cracks(mesh, CRACK * size.length());
-    mesh = sealed;
-    note(
-        joined,
-        "joined vertex across a crack",
-        "joined vertices across cracks",
-    );
+    let (mut mesh, joined) = seal_cracks(weld(&mesh, 0.0).mesh, CRACK * size.length());
     let repeated = drop_collapsed(&mut mesh);
     let duplicates = drop_duplicates(&mut mesh);
-    if size.min_element() <= NOTHING * size.max_element()
-        && (closed_as_read || repeated + duplicates > 0)
-    {
-        return Err(format!(
-            "the model has no thickness: {} x {} x {} mm",
-            size.x, size.y, size.z
-        ));
+    // A flat sheet can be looked at; a body pressed flat is a mistake. What is left of one is folded onto itself.
+    let flat = size.min_element() <= NOTHING * size.max_element();
+    if flat && (closed_as_read || repeated + duplicates > 0) {
+        let DVec3 { x, y, z } = size;
+        return Err(format!("the model has no thickness: {x} x {y} x {z} mm"));
     }
     if mesh.faces.is_empty() {
         return Err("all faces of the model are degenerate".to_owned());
     }
-    note(
-        repeated,
-        "dropped face that repeats a vertex",
-        "dropped faces that repeat a vertex",
-    );
-    note(
-        duplicates,
-        "dropped duplicate face",
-        "dropped duplicate faces",
-    );
-    note(
-        orient(&mut mesh),
-        "turned face to match its neighbours",
-        "turned faces to match their neighbours",
-    );
-    note(
-        turn_outwards(&mut mesh),
-        "turned closed surface outwards",
-        "turned closed surfaces outwards",
-    );
+    let turned = orient(&mut mesh);
+    let outwards = turn_outwards(&mut mesh);
     drop_unreferenced(&mut mesh);
+    let unused = ["vertex that no face uses", "vertices that no face uses"];
+    notes.add("dropped", stray, unused);
+    let cracks = ["vertex across a crack", "vertices across cracks"];
+    notes.add("joined", joined, cracks);
+    let repeats = ["face that repeats a vertex", "faces that repeat a vertex"];
+    notes.add("dropped", repeated, repeats);
+    notes.add("dropped", duplicates, ["duplicate face", "duplicate faces"]);
+    let matched = [
+        "face to match its neighbours",
+        "faces to match their neighbours",
+    ];
+    notes.add("turned", turned, matched);
+    let surfaces = ["closed surface outwards", "closed surfaces outwards"];
+    notes.add("turned", outwards, surfaces);
     Ok(mesh)
 }
 
@@ -257,9 +241,13 @@ fn is_needle(mesh: &TriMesh, face: usize) -> bool {
     height > 0.0 && height < NEEDLE
 }
 
-/// Sizes outside of this are somebody's unit mix-up, longest side in millimetres.
-const USUAL: std::ops::RangeInclusive<f64> = 2.0..=1e5;
-/// Files with f32 coordinates keep 1e-7 of them: beyond this ratio of distance to size details are lost.
+/// Longest side of a model, millimetres: up to which it is dust below the steps of printable files, up to which people
+/// usually saved in metres (a hand is 0.2 of them), up to which in inches, and from which nothing prints it.
+const DUST: f64 = 0.002;
+const METRES: f64 = 0.5;
+const INCHES: f64 = 2.0;
+const HUGE: f64 = 1e5;
+/// Files with f32 coordinates keep 1e-7 of them: this many lengths from the origin a thousandth of the model is lost.
 const FAR: f64 = 1e4;
 
 /// A warning if the size of a model, taken as millimetres, suggests another unit, or if it lies so far from the origin
@@ -271,18 +259,18 @@ pub fn unit_suspicion(file: &str, mesh: &TriMesh) -> Option<Diagnostic> {
     let place = Place::File(file.to_owned());
     let side = tidy(longest);
     let message = match longest {
-        l if l < 0.002 => format!(
+        l if l < DUST => format!(
             "the model is {side} mm long, less than a printable file can hold: in which unit was it saved?"
         ),
-        l if l < 0.5 => format!(
+        l if l < METRES => format!(
             "the model is {side} mm long: saved in metres? That would be {} mm",
             tidy(l * 1000.0)
         ),
-        l if l < *USUAL.start() => format!(
+        l if l < INCHES => format!(
             "the model is {side} mm long: saved in inches? That would be {} mm",
             tidy(l * 25.4)
         ),
-        l if l > *USUAL.end() => {
+        l if l > HUGE => {
             format!("the model is {side} mm long: in which unit was it saved?")
         }
         l if far > FAR * l => format!(

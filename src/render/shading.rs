@@ -51,6 +51,13 @@ pub fn scaled(colour: [u8; 3], light: f64) -> Rgb {
     colour.map(|c| light.min(1.0) as f32 * f32::from(c))
 }
 
+/// A colour with a share, 0 to 1, of another one in it.
+pub fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
+    std::array::from_fn(|k| {
+        (f64::from(colour[k]) * (1.0 - share) + f64::from(other[k]) * share).round() as u8
+    })
+}
+
 /// Casts four rays through every pixel that differs from a neighbour, and takes their mean. `N` pictures at once;
 /// `cast` gives all of them at a place in pixels from the top left corner.
 pub fn smoothed<const N: usize>(

@@ -3,6 +3,7 @@
 use crate::shapes::{BLUE, ORANGE, ball, prism, ring};
 use glam::{DQuat, DVec2, DVec3};
 use gltf_json::validation::Validate;
+use pillarforest::formats::read::{read_bodies, read_mesh};
 use pillarforest::formats::{Camera, Metadata, Part, ZipTime, write_3mf, write_glb, write_stl};
 use pillarforest::mesh::Solid;
 use quick_xml::events::{BytesStart, Event};
@@ -426,5 +427,22 @@ fn colours_of_a_glb_are_linear() {
     // From tables of the sRGB curve.
     for (found, wanted) in factor.iter().zip([0.0931, 0.4564, 0.8148, 1.0]) {
         assert!((found - wanted).abs() < 1e-3, "{factor:?}");
+    }
+}
+
+#[test]
+fn our_readers_find_what_our_writers_wrote() {
+    let solids = solids();
+    let stl = read_mesh("forest.stl", &write_stl(&solids[1], "ball")).unwrap();
+    let body = Solid::new(stl.value).unwrap();
+    assert_eq!(body.mesh().faces.len(), solids[1].mesh().faces.len());
+    assert!((body.volume_mm3() - solids[1].volume_mm3()).abs() < 1e-9);
+    let package = write_3mf(&parts(&solids), &Metadata::default(), None);
+    let bodies = read_bodies("forest.3mf", &package).unwrap();
+    assert!(stl.warnings.is_empty() && bodies.warnings.is_empty());
+    assert_eq!(bodies.value.len(), solids.len());
+    for (body, solid) in bodies.value.iter().zip(&solids) {
+        // The decimals stand for f32 values; read as f64 they are a hair off.
+        assert_eq!(Solid::new(body.mesh.clone()).unwrap().mesh(), solid.mesh());
     }
 }

@@ -155,7 +155,7 @@ fn cubes_load_in_every_form() {
     ] {
         expect(name, &bytes, Class::Ok, "");
         let report = inspect(name, &bytes).unwrap().value;
-        assert!(report.printable, "{name}: {report}");
+        assert!(report.printable(), "{name}: {report}");
         assert_eq!(report.bodies[0].volume_mm3, Some(8000.0), "{name}");
         assert_eq!(
             (report.bodies[0].vertices, report.bodies[0].triangles),

@@ -1,5 +1,8 @@
 //! Integration tests, one module a subject.
 
+mod diagram;
+mod formats;
+mod golden;
 mod hostile;
 mod meshes;
 mod diagram;
