@@ -193,7 +193,7 @@ fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
             Ok(Warned { value, warnings }) => {
                 let denied = messages.print(&warnings, None);
                 say(&if json { format!("{}\n", serde_json::json!(value)) } else { format!("{value}") });
-                if code != WRONG_INPUT && !value.printable {
+                if code != WRONG_INPUT && !value.printable() {
                     code = NOT_PRINTABLE;
                 }
                 if denied {

@@ -1,6 +1,6 @@
-//! Files: reading meshes from people's files, and writing printable ones.
+//! Files: reading meshes from people's files, and writing ours.
 //!
-//! Readers and writers work on bytes; they touch no file and no clock, and the same input gives the same bytes.
+//! Writers take solids and give bytes; they touch no file and no clock, and the same input gives the same bytes.
 //! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
 
 mod glb;
@@ -18,11 +18,6 @@ mod xml_3mf;
 pub use glb::{Camera, write_glb};
 pub use inspect::{Inspection, inspect};
 pub use read::{load_model, read_mesh};
-mod glb;
-mod stl;
-mod threemf;
-
-pub use glb::{Camera, write_glb};
 pub use stl::write_stl;
 pub use threemf::{Metadata, ZipTime, write_3mf};
 

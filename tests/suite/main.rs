@@ -5,8 +5,5 @@ mod formats;
 mod golden;
 mod hostile;
 mod meshes;
-mod diagram;
-mod formats;
-mod golden;
 mod render;
 mod shapes;
