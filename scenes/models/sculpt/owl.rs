@@ -44,14 +44,14 @@ pub fn owl() -> Creature {
         let skull = skull(h) - face_relief(h) - head_coat.height(h);
         let mut d = join(join(trunk, stump(b), 2.5), wing, 1.2);
         d = join(d, skull, 2.5);
-        d = join(d, face_parts(mirror_x(h), h), 0.35);
-        join(d, feet(w), 1.0)
+        d = join(d, face_parts(mirror_x(h), h), 1.2);
+        join(d, feet(w), 1.3)
     };
     let edge = |p: DVec3| {
         let h = turn(-BODY_TURN - HEAD_TURN) * p;
         let eye = mirror_x(h).distance(EYE);
         let face = 1.0 - 0.3 * step(11.0, 5.0, eye);
-        0.645 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
+        0.68 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
     };
     Creature {
         name: "owl",
@@ -183,7 +183,17 @@ fn feet(m: DVec3) -> f64 {
             ],
             0.4,
         );
-        d = join(d, join(toe, claw, 0.25), 0.5);
+        // Pads under knuckle and claw: without them the arch of the toe and the stump would form loops.
+        let pads = tube(
+            m,
+            &[
+                (knuckle - v(0.0, 0.0, 1.9), 1.7),
+                (tip - v(0.0, 0.0, 1.2), 1.6),
+                (tip + out * 1.5 - v(0.0, 0.0, 2.2), 1.2),
+            ],
+            0.5,
+        );
+        d = join(d, join(join(toe, claw, 0.25), pads, 0.5), 0.5);
     }
     d
 }
