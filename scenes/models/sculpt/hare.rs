@@ -139,9 +139,9 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     // The lids are a ring flattened from above and below, which gives the eye its almond shape.
     let gaze = (m - EYE) * v(1.0, 1.0, 1.22);
     let r = (gaze - out * gaze.dot(out)).length();
-    let dimple = 0.55 * step(1.9, 1.0, r) * step(0.0, 1.0, gaze.dot(out));
-    let eye = ball(m, EYE, 3.3) + dimple;
-    let lid = ring(gaze, out * 1.3, out, 3.5, 0.9) / 1.1;
+    let dimple = 0.5 * step(1.8, 0.9, r) * step(0.0, 1.0, gaze.dot(out));
+    let eye = ball(m, EYE + out * 0.25, 3.1) + dimple;
+    let lid = ring(gaze, out * 1.4, out, 3.6, 0.85) / 1.1;
     let pad = ellipsoid(m, v(27.4, 2.3, 41.6), v(4.0, 2.9, 3.0));
     let q = m - v(27.4, 2.3, 41.6);
     let dots =
@@ -153,7 +153,7 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let mut d = join(pad - dots, chin, 0.6);
     d = join(d, bridge, 1.6);
     d = join(d, carve(nose, nostril, 0.4), 0.35);
-    join(d, join(eye, lid, 0.5), 1.0)
+    join(d, join(eye, lid, 0.25), 1.0)
 }
 
 /// Soft folds of skin on the haunch and between the legs.
