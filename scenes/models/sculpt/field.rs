@@ -56,15 +56,30 @@ pub fn axes(x: DVec3, up: DVec3) -> DMat3 {
     DMat3::from_cols(x, y, x.cross(y))
 }
 
-/// Cone from `a` to `b` with round ends of radii `ra` and `rb` (hull of two balls, first-order).
+/// Cone from `a` to `b` with round ends of radii `ra` and `rb` (hull of two balls), exact.
 pub fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
-    let ab = b - a;
-    let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
-    // Leaning the foot point by the taper keeps the distance near-exact on the slanted side.
-    let lean = (ra - rb) / ab.length();
-    let off = (p - a - ab * t).length();
-    let t = (t - lean * off / ab.length() * (1.0 - lean * lean).max(0.1)).clamp(0.0, 1.0);
-    (p - a - ab * t).length() - (ra + (rb - ra) * t)
+    let axis = b - a;
+    let length = axis.length();
+    let taper = (ra - rb) / length;
+    // One ball inside the other: the larger one is all there is.
+    if taper.abs() >= 1.0 {
+        return if ra > rb {
+            ball(p, a, ra)
+        } else {
+            ball(p, b, rb)
+        };
+    }
+    let along = (p - a).dot(axis) / length;
+    let off = ((p - a) - axis * (along / length)).length();
+    // The slanted side touches both balls; points are assigned to the foot of their normal on the axis.
+    let foot = along - off * taper / (1.0 - taper * taper).sqrt();
+    if foot <= 0.0 {
+        ball(p, a, ra)
+    } else if foot >= length {
+        ball(p, b, rb)
+    } else {
+        off * (1.0 - taper * taper).sqrt() + along * taper - ra
+    }
 }
 
 /// Chain of cones through `(point, radius)` knots, blended over `k` at the joints.

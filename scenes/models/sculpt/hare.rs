@@ -7,7 +7,7 @@ use glam::DVec3;
 
 /// Turn of the hare (+x in its own frame) towards the viewer, degrees.
 const TURN: f64 = -42.0;
-const EYE: DVec3 = v(19.6, 6.0, 47.6);
+const EYE: DVec3 = v(19.8, 6.3, 47.4);
 const LOCK: Shape = Shape {
     shoulder: 0.15,
     point: 1.5,
@@ -30,7 +30,7 @@ pub fn hare() -> Creature {
     let edge = |p: DVec3| {
         let t = mirror_y(turn(-TURN) * p);
         let face = 1.0 - 0.28 * step(14.0, 7.0, t.distance(v(23.0, 3.0, 45.0)));
-        0.6 * face * (1.0 + 1.0 * step(2.0, 14.0, p.y))
+        0.645 * face * (1.0 + 1.0 * step(2.0, 14.0, p.y))
     };
     Creature {
         name: "hare",
@@ -139,10 +139,9 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     // The lids are a ring flattened from above and below, which gives the eye its almond shape.
     let gaze = (m - EYE) * v(1.0, 1.0, 1.22);
     let r = (gaze - out * gaze.dot(out)).length();
-    let dimple = 0.5 * step(1.9, 0.5, r) * step(0.0, 1.0, gaze.dot(out));
-    let eye = ball(m, EYE, 3.3) + dimple;
-    let lid = ring(gaze, out * 1.3, out, 3.5, 0.9) / 1.1;
-    let brow = cone(m, v(16.8, 6.4, 51.4), v(22.2, 5.2, 51.0), 1.1, 0.9);
+    let dimple = 0.5 * step(1.8, 0.9, r) * step(0.0, 1.0, gaze.dot(out));
+    let eye = ball(m, EYE + out * 0.25, 3.1) + dimple;
+    let lid = ring(gaze, out * 1.4, out, 3.6, 0.85) / 1.1;
     let pad = ellipsoid(m, v(27.4, 2.3, 41.6), v(4.0, 2.9, 3.0));
     let q = m - v(27.4, 2.3, 41.6);
     let dots =
@@ -154,7 +153,7 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     let mut d = join(pad - dots, chin, 0.6);
     d = join(d, bridge, 1.6);
     d = join(d, carve(nose, nostril, 0.4), 0.35);
-    join(join(d, join(eye, lid, 0.4), 0.5), brow, 0.8)
+    join(d, join(eye, lid, 0.25), 1.0)
 }
 
 /// Soft folds of skin on the haunch and between the legs.
@@ -167,9 +166,9 @@ fn fur() -> Coat {
     let whole = |p: DVec3| trunk(p, mirror_y(p));
     let gap = |p: DVec3| {
         let m = mirror_y(p);
-        let bare = m.distance(EYE) < 4.2 || p.x > 25.0 || p.z < 1.5 || (p.z < 5.0 && p.x > 8.0);
+        let bare = m.distance(EYE) < 4.8 || p.x > 27.0 || p.z < 1.5 || (p.z < 5.0 && p.x > 8.0);
         let face = step(22.0, 12.0, p.distance(v(24.0, 0.0, 45.0)));
-        (!bare).then_some(3.4 - 1.2 * face)
+        (!bare).then_some(3.4 - 1.6 * face)
     };
     let roots = scatter(&whole, v(-38., -20., 0.), v(36., 20., 58.), &gap);
     let tiles = roots.into_iter().map(|p| {
@@ -187,7 +186,7 @@ fn fur() -> Coat {
             &whole,
             p,
             flow,
-            [7.6 * size, 2.2 * size.max(0.7), 0.95 * size],
+            [7.6 * size, 2.2 * size.max(0.7), (0.95 - 0.1 * face) * size],
         )
     });
     Coat::new(tiles.collect(), LOCK)

@@ -18,6 +18,8 @@ use std::process::ExitCode;
 /// Spacing of the first grid, mm; fine enough to catch the thinnest part (claws, about 1.5 mm) several times.
 const PITCH: f64 = 0.55;
 
+const NAMES: [&str; 4] = ["owl", "hare", "fish", "turtle"];
+
 fn main() -> ExitCode {
     let mut args = std::env::args().skip(1);
     let Some(folder) = args.next().map(PathBuf::from) else {
@@ -25,22 +27,33 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let wanted: Vec<String> = args.collect();
-    let makers: [(&str, fn() -> Creature); 4] = [
-        ("owl", owl::owl),
-        ("hare", hare::hare),
-        ("fish", fish::fish),
-        ("turtle", turtle::turtle),
-    ];
-    for (name, make) in makers {
+    if let Some(unknown) = wanted.iter().find(|w| !NAMES.contains(&w.as_str())) {
+        eprintln!(
+            "error: no creature is called {unknown:?}; there are {}",
+            NAMES.join(", ")
+        );
+        return ExitCode::from(2);
+    }
+    for name in NAMES {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;
         }
-        if let Err(message) = produce(&make(), &folder) {
+        if let Err(message) = produce(&creature(name), &folder) {
             eprintln!("error: {message}");
             return ExitCode::FAILURE;
         }
     }
     ExitCode::SUCCESS
+}
+
+/// The creature of that name, one of [`NAMES`].
+fn creature(name: &str) -> Creature {
+    match name {
+        "owl" => owl::owl(),
+        "hare" => hare::hare(),
+        "fish" => fish::fish(),
+        _ => turtle::turtle(),
+    }
 }
 
 /// Meshes one creature, stands it on z = 0 and writes it.

@@ -44,14 +44,14 @@ pub fn owl() -> Creature {
         let skull = skull(h) - face_relief(h) - head_coat.height(h);
         let mut d = join(join(trunk, stump(b), 2.5), wing, 1.2);
         d = join(d, skull, 2.5);
-        d = join(d, face_parts(mirror_x(h), h), 0.35);
-        join(d, feet(w), 1.0)
+        d = join(d, face_parts(mirror_x(h), h), 1.2);
+        join(d, feet(w), 1.3)
     };
     let edge = |p: DVec3| {
         let h = turn(-BODY_TURN - HEAD_TURN) * p;
         let eye = mirror_x(h).distance(EYE);
         let face = 1.0 - 0.3 * step(11.0, 5.0, eye);
-        0.67 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
+        0.68 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
     };
     Creature {
         name: "owl",
@@ -67,9 +67,9 @@ fn trunk(p: DVec3) -> f64 {
     let chest = ellipsoid(p, v(0.0, -1.5, 39.0), v(15.5, 13.5, 15.0));
     let tail = turned_ellipsoid(
         p,
-        v(0.0, 14.0, 13.0),
+        v(0.0, 13.5, 15.5),
         axes(v(1., 0., 0.), v(0.0, -0.35, 1.0)),
-        v(7.5, 4.0, 14.0),
+        v(7.5, 4.0, 11.5),
     );
     join(join(belly, chest, 6.0), tail, 5.0)
 }
@@ -82,7 +82,7 @@ fn skull(p: DVec3) -> f64 {
         &[
             (v(10.0, -6.0, 65.0), 4.2),
             (v(13.8, -5.0, 72.0), 3.0),
-            (v(16.2, -4.0, 78.5), 1.3),
+            (v(16.6, -4.0, 79.5), 0.9),
         ],
         2.0,
     );
@@ -148,7 +148,7 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     );
     let cere = ellipsoid(p, v(0.0, -16.8, 57.6), v(2.3, 2.2, 1.6));
     join(
-        join(join(eye, lid, 0.3), brow, 0.8),
+        join(join(eye, lid, 0.9), brow - streaks, 1.2),
         join(beak, cere, 0.4),
         1.0,
     )
@@ -183,7 +183,17 @@ fn feet(m: DVec3) -> f64 {
             ],
             0.4,
         );
-        d = join(d, join(toe, claw, 0.25), 0.5);
+        // Pads under knuckle and claw: without them the arch of the toe and the stump would form loops.
+        let pads = tube(
+            m,
+            &[
+                (knuckle - v(0.0, 0.0, 1.9), 1.7),
+                (tip - v(0.0, 0.0, 1.2), 1.6),
+                (tip + out * 1.5 - v(0.0, 0.0, 2.2), 1.2),
+            ],
+            0.5,
+        );
+        d = join(d, join(join(toe, claw, 0.25), pads, 0.5), 0.5);
     }
     d
 }
@@ -194,8 +204,8 @@ fn stump(p: DVec3) -> f64 {
     let radial = p.x.hypot(p.y);
     let angle = p.y.atan2(p.x);
     let wave = (angle * 11.0 + 1.6 * noise(v(angle * 2.0, 0.0, p.z * 0.25))).sin();
-    let bark = 0.7 * wave.abs().sqrt() + 0.5 * noise(v(p.x * 0.5, p.y * 0.5, p.z * 0.8));
-    let side = radial - 18.0 - 0.04 * (STUMP - p.z).max(0.0).powi(2) - bark;
+    let bark = 0.9 * (wave * wave + 0.1).sqrt() + 0.5 * noise(v(p.x * 0.5, p.y * 0.5, p.z * 0.8));
+    let side = radial - 16.3 - 0.04 * (STUMP - p.z).max(0.0).powi(2) - bark;
     let rings = 0.16 * (radial * 3.4 + noise(p * 0.2)).sin();
     let top = p.z - STUMP - rings;
     meet(meet(side, top, 1.4), -p.z, 0.6)
@@ -249,7 +259,15 @@ fn head_feathers() -> Coat {
     };
     let tiles = roots
         .into_iter()
-        .map(|p| Tile::on(&skull, p, flow(p), [6.4, 2.5, 0.8]))
+        .map(|p| {
+            let tuft = step(66.0, 70.0, p.z) * step(6.0, 10.0, p.x.abs());
+            Tile::on(
+                &skull,
+                p,
+                flow(p),
+                [6.4 + 1.6 * tuft, 2.5 - 0.5 * tuft, 0.8 + 0.3 * tuft],
+            )
+        })
         .collect();
     Coat::new(tiles, FEATHER)
 }

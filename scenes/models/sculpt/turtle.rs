@@ -7,7 +7,7 @@ use glam::DVec3;
 
 /// Turn of the turtle's head (+x in its own frame) towards the viewer, degrees.
 const TURN: f64 = -33.0;
-const EYE: DVec3 = v(41.2, 4.6, 24.6);
+const EYE: DVec3 = v(41.2, 5.0, 24.4);
 
 /// The turtle, about 80 mm long.
 pub fn turtle() -> Creature {
@@ -120,7 +120,7 @@ fn shell_relief(scutes: &Mosaic, p: DVec3) -> f64 {
     let upper = step(17.4, 18.8, p.z);
     let lower = step(18.0, 16.6, p.z) * step(7.6, 9.2, p.z);
     let plates = scutes.border(p, 1.2).map_or(0.0, |(inner, _)| {
-        let d = inner.min((p.z - 18.0) * 1.1).max(0.0);
+        let d = join(inner, (p.z - 18.0) * 1.1, 2.5).max(0.0);
         let swell = 1.2 * step(0.0, 1.5, d) + 0.9 * step(0.5, 9.0, d);
         let rings = 0.36
             * (d * std::f64::consts::TAU / 2.6 + 2.6).sin()
@@ -170,24 +170,23 @@ fn face_parts(m: DVec3, p: DVec3) -> f64 {
     // The lids are a ring flattened from above and below, which gives the eye its almond shape.
     let gaze = (m - EYE) * v(1.0, 1.0, 1.3);
     let r = (gaze - out * gaze.dot(out)).length();
-    let dimple = 0.45 * step(1.7, 0.5, r) * step(0.0, 1.0, gaze.dot(out));
+    let dimple = 0.6 * step(1.9, 1.0, r) * step(0.0, 1.0, gaze.dot(out));
     let eye = ball(m, EYE - out * 0.2, 2.8) + dimple;
     let lid = ring(gaze, out * 1.1, out, 3.0, 0.85) / 1.15;
     let brow = cone(m, v(37.0, 5.2, 27.4), v(43.5, 4.0, 26.8), 1.5, 1.0);
-    // The beak: a plate over the snout whose lower edge is the mouth line, hooked at the front.
+    // The beak: a plate above and one below the line of the mouth.
     let upper = meet(
         ellipsoid(p, v(43.6, 0.0, 22.2), v(6.2, 5.0, 4.6)),
         20.9 + 0.15 * (44.0 - p.x) - p.z,
         0.8,
     );
-    let hook = cone(p, v(48.4, 0.0, 21.8), v(48.8, 0.0, 19.4), 1.7, 0.9);
     let lower = meet(
         ellipsoid(p, v(42.5, 0.0, 19.8), v(5.8, 4.6, 3.4)),
         p.z - 20.0 - 0.15 * (44.0 - p.x),
         0.8,
     );
     let nostril = ball(m, v(49.0, 1.3, 23.6), 0.75);
-    let beak = carve(join(join(upper, hook, 0.8), lower, 0.3), nostril, 0.4);
+    let beak = carve(join(upper, lower, 0.3), nostril, 0.4);
     join(join(join(eye, lid, 0.4), brow, 0.8), beak, 0.4)
 }
 
