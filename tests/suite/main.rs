@@ -1,1 +1,4 @@
 //! Integration tests, one module a subject.
+
+mod cli;
+mod scene;
