@@ -25,10 +25,24 @@ pub fn run(cli: &Cli) -> u8 {
     match &cli.command {
         Command::Init { scene, force } => init(&messages, scene, *force),
         Command::Check { scene } => check(&messages, &cli.global, scene),
-        Command::Build { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::All),
-        Command::View { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::Plan),
-        Command::Render { scene, output } => make(&messages, &cli.global, scene, output.as_deref(), Goal::Pictures),
-        Command::Inspect { files, json } => inspect(&messages, files, *json || cli.global.diagnostics == Style::Json),
+        Command::Build { scene, output } => {
+            make(&messages, &cli.global, scene, output.as_deref(), Goal::All)
+        }
+        Command::View { scene, output } => {
+            make(&messages, &cli.global, scene, output.as_deref(), Goal::Plan)
+        }
+        Command::Render { scene, output } => make(
+            &messages,
+            &cli.global,
+            scene,
+            output.as_deref(),
+            Goal::Pictures,
+        ),
+        Command::Inspect { files, json } => inspect(
+            &messages,
+            files,
+            *json || cli.global.diagnostics == Style::Json,
+        ),
         Command::Schema => say(&scene::schema()),
         Command::Completions { shell } => completions(*shell),
     }
@@ -55,12 +69,21 @@ fn fail(messages: &Messages, list: &[Diagnostic], source: Option<&Source>, code:
 
 fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let files = [(path.to_path_buf(), scene::TEMPLATE.as_bytes()), (folder.join(scene::TEMPLATE_MODEL_FILE), scene::TEMPLATE_MODEL)];
+    let files = [
+        (path.to_path_buf(), scene::TEMPLATE.as_bytes()),
+        (
+            folder.join(scene::TEMPLATE_MODEL_FILE),
+            scene::TEMPLATE_MODEL,
+        ),
+    ];
     let in_way: Vec<Diagnostic> = files
         .iter()
-        .filter(|(path, bytes)| path.exists() && !force && std::fs::read(path).ok().as_deref() != Some(*bytes))
+        .filter(|(path, bytes)| {
+            path.exists() && !force && std::fs::read(path).ok().as_deref() != Some(*bytes)
+        })
         .map(|(path, _)| {
-            Diagnostic::error(format!("\"{}\" exists already", path.display())).help("`--force` overwrites it; or give another name: `pillarforest init my.ron`")
+            Diagnostic::error(format!("\"{}\" exists already", path.display()))
+                .help("`--force` overwrites it; or give another name: `pillarforest init my.ron`")
         })
         .collect();
     if !in_way.is_empty() {
@@ -68,12 +91,21 @@ fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
     }
     for (path, bytes) in &files {
         if let Err(error) = write::into_file(path, bytes) {
-            let problem = Diagnostic::error(format!("cannot write \"{}\": {error}", path.display()));
+            let problem =
+                Diagnostic::error(format!("cannot write \"{}\": {error}", path.display()));
             return fail(messages, &[problem], None, WRONG_INPUT);
         }
     }
-    let scene_argument = if path == Path::new("scene.ron") { String::new() } else { format!(" {}", path.display()) };
-    say(&format!("wrote {} and {}\nnext: pillarforest build{scene_argument}\n", files[0].0.display(), files[1].0.display()))
+    let scene_argument = if path == Path::new("scene.ron") {
+        String::new()
+    } else {
+        format!(" {}", path.display())
+    };
+    say(&format!(
+        "wrote {} and {}\nnext: pillarforest build{scene_argument}\n",
+        files[0].0.display(),
+        files[1].0.display()
+    ))
 }
 
 /// A scene read for a command, with its text for messages.
@@ -99,9 +131,20 @@ fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
             Err(problem) => return stop(&[problem], None),
         };
     }
-    let changed = if args.sets.is_empty() { "" } else { " (with --set)" };
-    let source = Source { path: format!("{}{changed}", args.scene.display()), text };
-    let library = args.models.clone().or_else(|| std::env::var_os("PILLARFOREST_MODELS").filter(|v| !v.is_empty()).map(PathBuf::from));
+    let changed = if args.sets.is_empty() {
+        ""
+    } else {
+        " (with --set)"
+    };
+    let source = Source {
+        path: format!("{}{changed}", args.scene.display()),
+        text,
+    };
+    let library = args.models.clone().or_else(|| {
+        std::env::var_os("PILLARFOREST_MODELS")
+            .filter(|v| !v.is_empty())
+            .map(PathBuf::from)
+    });
     let model_files = ModelFiles::of(&args.scene, library.as_deref());
     match scene::resolve(&source.text, &|name| model_files.read(name)) {
         Err(problems) => stop(&problems, Some(&source)),
@@ -110,19 +153,33 @@ fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
                 messages.closing(&warnings, NOTHING);
                 return None;
             }
-            Some(Loaded { scene: value, warnings, source })
+            Some(Loaded {
+                scene: value,
+                warnings,
+                source,
+            })
         }
     }
 }
 
 /// Runs the pipeline with progress. The error code has been explained to the user.
-fn compile(messages: &Messages, global: &Global, args: &SceneArgs, loaded: &Loaded, goal: Goal) -> Result<(Build, Reporter), u8> {
+fn compile(
+    messages: &Messages,
+    global: &Global,
+    args: &SceneArgs,
+    loaded: &Loaded,
+    goal: Goal,
+) -> Result<(Build, Reporter), u8> {
     if let Some(jobs) = args.jobs {
         // Fails only if a pool exists already, which then keeps its size.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global();
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.into())
+            .build_global();
     }
     let reporter = Reporter::new(global.quiet, global.verbose);
-    let result = compile::run(&loaded.scene, goal, &|stage, share| reporter.report(stage, share));
+    let result = compile::run(&loaded.scene, goal, &|stage, share| {
+        reporter.report(stage, share)
+    });
     reporter.finish();
     let build = result.map_err(|problems| {
         let all: Vec<Diagnostic> = problems.iter().chain(&loaded.warnings).cloned().collect();
@@ -141,21 +198,43 @@ fn compile(messages: &Messages, global: &Global, args: &SceneArgs, loaded: &Load
 }
 
 fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
-    let Some(loaded) = load(messages, args) else { return WRONG_INPUT };
+    let Some(loaded) = load(messages, args) else {
+        return WRONG_INPUT;
+    };
     match compile(messages, global, args, &loaded, Goal::Check) {
         Err(code) => code,
         Ok((build, _)) => {
-            let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+            let count =
+                |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
             let views = count(loaded.scene.views.len(), "view");
-            let pillars = loaded.scene.supports.iter().filter(|s| s.layer.is_some()).count();
+            let pillars = loaded
+                .scene
+                .supports
+                .iter()
+                .filter(|s| s.layer.is_some())
+                .count();
             let warnings = loaded.warnings.len() + build.warnings.len();
-            let found = if warnings == 0 { "no problems".to_string() } else { count(warnings, "warning") };
-            say(&format!("{}: {views}, {}: {found}\n", args.scene.display(), count(pillars, "pillar")))
+            let found = if warnings == 0 {
+                "no problems".to_string()
+            } else {
+                count(warnings, "warning")
+            };
+            say(&format!(
+                "{}: {views}, {}: {found}\n",
+                args.scene.display(),
+                count(pillars, "pillar")
+            ))
         }
     }
 }
 
-fn make(messages: &Messages, global: &Global, args: &SceneArgs, output: Option<&Path>, goal: Goal) -> u8 {
+fn make(
+    messages: &Messages,
+    global: &Global,
+    args: &SceneArgs,
+    output: Option<&Path>,
+    goal: Goal,
+) -> u8 {
     let allowed: &[&str] = match goal {
         Goal::Plan => &["svg", "png"],
         Goal::Pictures => &[],
@@ -165,7 +244,9 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, output: Option<&
         Ok(target) => target,
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
-    let Some(loaded) = load(messages, args) else { return WRONG_INPUT };
+    let Some(loaded) = load(messages, args) else {
+        return WRONG_INPUT;
+    };
     let (build, reporter) = match compile(messages, global, args, &loaded, goal) {
         Ok(done) => done,
         Err(code) => return code,
@@ -174,8 +255,16 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, output: Option<&
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
-            say(&format!("wrote {}  {}  ({seconds:.1} s)\n", path.display(), build.summary));
-            if build.printable || goal == Goal::Plan { WELL } else { NOT_PRINTABLE }
+            say(&format!(
+                "wrote {}  {}  ({seconds:.1} s)\n",
+                path.display(),
+                build.summary
+            ));
+            if build.printable || goal == Goal::Plan {
+                WELL
+            } else {
+                NOT_PRINTABLE
+            }
         }
     }
 }
@@ -184,7 +273,8 @@ fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
     let mut code = WELL;
     for path in paths {
         let name = path.display().to_string();
-        let found = files::regular(path).and_then(|bytes| pillarforest::formats::inspect(&name, &bytes));
+        let found =
+            files::regular(path).and_then(|bytes| pillarforest::formats::inspect(&name, &bytes));
         match found {
             Err(problem) => {
                 messages.print(&[problem], None);
@@ -192,7 +282,11 @@ fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
             }
             Ok(Warned { value, warnings }) => {
                 let denied = messages.print(&warnings, None);
-                say(&if json { format!("{}\n", serde_json::json!(value)) } else { format!("{value}") });
+                say(&if json {
+                    format!("{}\n", serde_json::json!(value))
+                } else {
+                    format!("{value}")
+                });
                 if code != WRONG_INPUT && !value.printable() {
                     code = NOT_PRINTABLE;
                 }

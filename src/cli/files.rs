@@ -25,11 +25,19 @@ pub fn scene_text(path: &Path) -> Result<String, Diagnostic> {
     })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to() as u64;
-        Diagnostic::error(format!("the scene is not UTF-8 text: byte {offset} fits no character"))
-            .at(Place::Byte { file: shown, offset })
-            .help("save it as UTF-8 in the editor")
+        Diagnostic::error(format!(
+            "the scene is not UTF-8 text: byte {offset} fits no character"
+        ))
+        .at(Place::Byte {
+            file: shown,
+            offset,
+        })
+        .help("save it as UTF-8 in the editor")
     })?;
-    Ok(text.strip_prefix('\u{feff}').map(str::to_string).unwrap_or(text))
+    Ok(text
+        .strip_prefix('\u{feff}')
+        .map(str::to_string)
+        .unwrap_or(text))
 }
 
 /// The bytes of a regular file of reasonable size.
@@ -44,11 +52,17 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         return Err(fail("it is not a regular file".into()));
     }
     if meta.len() > LARGEST_FILE {
-        return Err(fail(format!("it is {} MB large; the limit is {} MB", meta.len() >> 20, LARGEST_FILE >> 20)));
+        return Err(fail(format!(
+            "it is {} MB large; the limit is {} MB",
+            meta.len() >> 20,
+            LARGEST_FILE >> 20
+        )));
     }
     let mut bytes = Vec::new();
     let file = fs::File::open(path).map_err(|e| fail(e.to_string()))?;
-    file.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(|e| fail(e.to_string()))?;
+    file.take(LARGEST_FILE)
+        .read_to_end(&mut bytes)
+        .map_err(|e| fail(e.to_string()))?;
     Ok(bytes)
 }
 
@@ -61,8 +75,14 @@ pub struct ModelFiles {
 impl ModelFiles {
     /// The model files of a scene.
     pub fn of(scene: &Path, library: Option<&Path>) -> Self {
-        let folder = scene.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Self { folder: folder.to_path_buf(), library: library.map(Path::to_path_buf) }
+        let folder = scene
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        Self {
+            folder: folder.to_path_buf(),
+            library: library.map(Path::to_path_buf),
+        }
     }
 
     /// Reads the file a scene calls `name`.
@@ -78,7 +98,9 @@ impl ModelFiles {
                 return regular(&found);
             }
         }
-        let leaves = relative.components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
+        let leaves = relative
+            .components()
+            .any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
         if leaves {
             return Err(Diagnostic::error("the model file lies outside the scene's folder")
                 .help("copy it beside the scene, or give its folder: `--models DIR` finds it by its file name"));
@@ -93,8 +115,15 @@ impl ModelFiles {
     /// No such file: where it was looked for, and what is there instead.
     fn missing(&self, path: &Path) -> Diagnostic {
         let absolute = std::path::absolute(path).unwrap_or(path.to_path_buf());
-        let mut problem = Diagnostic::error(format!("there is no file \"{}\"", escaped(&absolute.display().to_string())));
-        let wanted = path.file_name().unwrap_or_default().to_string_lossy().to_string();
+        let mut problem = Diagnostic::error(format!(
+            "there is no file \"{}\"",
+            escaped(&absolute.display().to_string())
+        ));
+        let wanted = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_string();
         let folder = path.parent().unwrap_or(Path::new("."));
         let mut there: Vec<String> = fs::read_dir(folder)
             .into_iter()
@@ -115,21 +144,37 @@ impl ModelFiles {
 
 /// Refuses names that mean something else on another system, or no file at all.
 fn well_named(name: &str) -> Result<(), Diagnostic> {
-    let fail = |why: &str, help: &str| Err(Diagnostic::error(why.to_string()).help(help.to_string()));
+    let fail =
+        |why: &str, help: &str| Err(Diagnostic::error(why.to_string()).help(help.to_string()));
     if name.trim().is_empty() {
-        return fail("the name of the model file is empty", "give a file beside the scene: file: \"models/owl.ply\"");
+        return fail(
+            "the name of the model file is empty",
+            "give a file beside the scene: file: \"models/owl.ply\"",
+        );
     }
     if name.contains("://") {
-        return fail("a model cannot be read from the network", "download the file first and name the copy");
+        return fail(
+            "a model cannot be read from the network",
+            "download the file first and name the copy",
+        );
     }
     if name.starts_with("\\\\") || name.starts_with("//") {
-        return fail("a model cannot be read from a network share", "copy the file beside the scene");
+        return fail(
+            "a model cannot be read from a network share",
+            "copy the file beside the scene",
+        );
     }
     if name.contains('\\') {
-        return fail("the file name has backslashes", "write folders with `/`, which works on every system");
+        return fail(
+            "the file name has backslashes",
+            "write folders with `/`, which works on every system",
+        );
     }
     if name.contains('\0') {
-        return fail("the file name holds a NUL character", "give a file beside the scene");
+        return fail(
+            "the file name holds a NUL character",
+            "give a file beside the scene",
+        );
     }
     Ok(())
 }

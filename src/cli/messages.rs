@@ -28,19 +28,30 @@ const AROUND: usize = 120;
 
 impl Messages {
     pub fn new(global: &Global) -> Self {
-        let auto = || std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        let auto = || {
+            std::io::stderr().is_terminal()
+                && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+        };
         let coloured = match global.color {
             When::Always => true,
             When::Never => false,
             When::Auto => auto(),
         };
-        Self { style: global.diagnostics, coloured, quiet: global.quiet, deny_warnings: global.deny.is_some() }
+        Self {
+            style: global.diagnostics,
+            coloured,
+            quiet: global.quiet,
+            deny_warnings: global.deny.is_some(),
+        }
     }
 
     /// Prints all; tells whether the run must stop.
     pub fn print(&self, list: &[Diagnostic], source: Option<&Source>) -> bool {
         let mut out = String::new();
-        for diagnostic in list.iter().filter(|d| d.is_error() || !self.quiet || self.deny_warnings) {
+        for diagnostic in list
+            .iter()
+            .filter(|d| d.is_error() || !self.quiet || self.deny_warnings)
+        {
             match self.style {
                 Style::Human => out.push_str(&self.human(diagnostic, source)),
                 Style::Short => out.push_str(&short(diagnostic, source)),
@@ -69,7 +80,11 @@ impl Messages {
             .filter(|(n, _)| *n > 0)
             .map(|&(n, what)| count(n, what))
             .collect();
-        let denied = if errors == 0 && self.deny_warnings { " Warnings are denied." } else { "" };
+        let denied = if errors == 0 && self.deny_warnings {
+            " Warnings are denied."
+        } else {
+            ""
+        };
         eprintln!("{}.{denied} {last}", parts.join(", "));
     }
 
@@ -85,24 +100,47 @@ impl Messages {
             (Some(Place::Scene(span)), Some(source)) => {
                 let view = Excerpt::of(&source.text, span);
                 let mark = AnnotationKind::Primary.span(view.mark).label(label);
-                let snippet = Snippet::source(view.text).line_start(view.line).path(escaped(&source.path));
+                let snippet = Snippet::source(view.text)
+                    .line_start(view.line)
+                    .path(escaped(&source.path));
                 group = group.element(snippet.annotation(mark));
             }
-            (Some(Place::Line { file, line, excerpt }), _) => {
+            (
+                Some(Place::Line {
+                    file,
+                    line,
+                    excerpt,
+                }),
+                _,
+            ) => {
                 let excerpt = escaped(excerpt);
                 let mark = AnnotationKind::Primary.span(0..excerpt.len()).label(label);
-                group = group.element(Snippet::source(excerpt).line_start(*line).path(escaped(file)).annotation(mark));
+                group = group.element(
+                    Snippet::source(excerpt)
+                        .line_start(*line)
+                        .path(escaped(file))
+                        .annotation(mark),
+                );
             }
             (Some(Place::Byte { file, offset }), _) => {
-                group = group.element(annotate_snippets::Origin::path(format!("{} at byte {offset}", escaped(file))));
+                group = group.element(annotate_snippets::Origin::path(format!(
+                    "{} at byte {offset}",
+                    escaped(file)
+                )));
             }
-            (Some(Place::File(file)), _) => group = group.element(annotate_snippets::Origin::path(escaped(file))),
+            (Some(Place::File(file)), _) => {
+                group = group.element(annotate_snippets::Origin::path(escaped(file)))
+            }
             (Some(Place::Scene(_)) | None, _) => {}
         }
         for help in &diagnostic.help {
             group = group.element(Level::HELP.message(escaped(help)));
         }
-        let renderer = if self.coloured { Renderer::styled() } else { Renderer::plain() };
+        let renderer = if self.coloured {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
         renderer.render(&[group]).to_string()
     }
 }
@@ -121,26 +159,48 @@ impl Excerpt {
         let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
         let end = floor(text, span.end.clamp(start, line_end));
-        let from = if start - line_start > AROUND { floor(text, start - AROUND) } else { line_start };
+        let from = if start - line_start > AROUND {
+            floor(text, start - AROUND)
+        } else {
+            line_start
+        };
         let cut = end.min(start + AROUND);
-        let to = if line_end - cut > AROUND { floor(text, cut + AROUND) } else { line_end };
+        let to = if line_end - cut > AROUND {
+            floor(text, cut + AROUND)
+        } else {
+            line_end
+        };
         let end = end.min(to);
         // Invisible characters are spelled out; the mark moves with them.
-        let (before, marked) = (escaped_line(&text[from..start]), escaped_line(&text[start..end]));
+        let (before, marked) = (
+            escaped_line(&text[from..start]),
+            escaped_line(&text[start..end]),
+        );
         let after = escaped_line(&text[end..to]);
         let mark = before.len()..before.len() + marked.len();
-        Self { text: format!("{before}{marked}{after}"), line: text[..start].matches('\n').count() + 1, mark }
+        Self {
+            text: format!("{before}{marked}{after}"),
+            line: text[..start].matches('\n').count() + 1,
+            mark,
+        }
     }
 }
 
 /// As `escaped`, but tabs stay and a carriage return vanishes.
 fn escaped_line(text: &str) -> String {
-    text.replace('\r', "").split('\t').map(escaped).collect::<Vec<_>>().join("\t")
+    text.replace('\r', "")
+        .split('\t')
+        .map(escaped)
+        .collect::<Vec<_>>()
+        .join("\t")
 }
 
 /// The nearest character boundary at or before `at`.
 fn floor(text: &str, at: usize) -> usize {
-    (0..=at).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
+    (0..=at)
+        .rev()
+        .find(|&i| text.is_char_boundary(i))
+        .unwrap_or(0)
 }
 
 /// File, line and column (1-based; 0 if there is none).
@@ -173,7 +233,11 @@ fn short(diagnostic: &Diagnostic, source: Option<&Source>) -> String {
         let _ = write!(out, ":{number}");
     }
     let colon = if out.is_empty() { "" } else { ": " };
-    format!("{out}{colon}{}: {}", severity(diagnostic), escaped(&diagnostic.message))
+    format!(
+        "{out}{colon}{}: {}",
+        severity(diagnostic),
+        escaped(&diagnostic.message)
+    )
 }
 
 fn json(diagnostic: &Diagnostic, source: Option<&Source>) -> String {

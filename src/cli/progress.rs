@@ -26,15 +26,27 @@ struct State {
 
 impl Reporter {
     pub fn new(silent: bool, verbose: bool) -> Self {
-        let state = State { bar: None, stages: Vec::new(), told: 0 };
-        Self { start: Instant::now(), silent, verbose, state: Mutex::new(state) }
+        let state = State {
+            bar: None,
+            stages: Vec::new(),
+            told: 0,
+        };
+        Self {
+            start: Instant::now(),
+            silent,
+            verbose,
+            state: Mutex::new(state),
+        }
     }
 
     /// A stage is at work, `share` of the whole run is done.
     pub fn report(&self, stage: &str, share: f64) {
         let elapsed = self.start.elapsed();
         // A thread that panicked while reporting must not take the others with it.
-        let mut state = self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut state = self
+            .state
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
         if state.stages.iter().all(|(name, _)| name != stage) {
             state.stages.push((stage.to_string(), elapsed));
         }
@@ -46,7 +58,10 @@ impl Reporter {
             bar.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
             bar.set_message(stage.to_string());
         } else {
-            let fresh: Vec<String> = state.stages[state.told..].iter().map(|(name, _)| name.clone()).collect();
+            let fresh: Vec<String> = state.stages[state.told..]
+                .iter()
+                .map(|(name, _)| name.clone())
+                .collect();
             state.told = state.stages.len();
             for name in fresh {
                 eprintln!("[{:>3.0} %] {name}", share.clamp(0.0, 1.0) * 100.0);
@@ -56,7 +71,10 @@ impl Reporter {
 
     /// Removes the bar; gives the time since the start.
     pub fn finish(&self) -> Duration {
-        let state = self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let state = self
+            .state
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
         if let Some(bar) = &state.bar {
             bar.finish_and_clear();
         }
@@ -65,13 +83,21 @@ impl Reporter {
 
     /// One line per stage: when it began and how long until the next one did.
     pub fn timings(&self) -> String {
-        let state = self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let state = self
+            .state
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
         let end = self.start.elapsed();
         let next = state.stages.iter().skip(1).map(|(_, t)| *t).chain([end]);
         let lines = state.stages.iter().zip(next).map(|((name, from), to)| {
-            format!("{:>8.2} s  {name}\n", to.saturating_sub(*from).as_secs_f64())
+            format!(
+                "{:>8.2} s  {name}\n",
+                to.saturating_sub(*from).as_secs_f64()
+            )
         });
-        lines.chain([format!("{:>8.2} s  in all\n", end.as_secs_f64())]).collect()
+        lines
+            .chain([format!("{:>8.2} s  in all\n", end.as_secs_f64())])
+            .collect()
     }
 }
 

@@ -28,11 +28,19 @@ impl Target {
     pub fn new(output: Option<&Path>, scene: &Path, allowed: &[&str]) -> Result<Self, Diagnostic> {
         let stem = scene.file_stem().unwrap_or("scene".as_ref());
         let path = output.map_or_else(|| Path::new("out").join(stem), Path::to_path_buf);
-        let fail = |why: String| Diagnostic::error(format!("cannot write to \"{}\": {why}", path.display()));
-        let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let fail = |why: String| {
+            Diagnostic::error(format!("cannot write to \"{}\": {why}", path.display()))
+        };
+        let ending = path
+            .extension()
+            .map(|e| e.to_string_lossy().to_lowercase())
+            .unwrap_or_default();
         let target = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {
             if !allowed.contains(&ending.as_str()) {
-                return Err(fail(format!("this command makes no .{ending} file; it makes {}", allowed.join(", "))));
+                return Err(fail(format!(
+                    "this command makes no .{ending} file; it makes {}",
+                    allowed.join(", ")
+                )));
             }
             Target::File(path.clone())
         } else {
@@ -41,9 +49,14 @@ impl Target {
             }
             Target::Directory(path.clone())
         };
-        let ancestor = path.ancestors().skip(1).find(|a| a.as_os_str().is_empty() || a.exists());
+        let ancestor = path
+            .ancestors()
+            .skip(1)
+            .find(|a| a.as_os_str().is_empty() || a.exists());
         match ancestor {
-            Some(a) if !a.as_os_str().is_empty() && !a.is_dir() => Err(fail(format!("\"{}\" is a file", a.display()))),
+            Some(a) if !a.as_os_str().is_empty() && !a.is_dir() => {
+                Err(fail(format!("\"{}\" is a file", a.display())))
+            }
             _ => Ok(target),
         }
     }
@@ -55,20 +68,28 @@ impl Target {
     pub fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
         match self {
             Target::Directory(directory) => {
-                let fail = |e: std::io::Error| Diagnostic::error(format!("cannot write to \"{}\": {e}", directory.display()));
+                let fail = |e: std::io::Error| {
+                    Diagnostic::error(format!("cannot write to \"{}\": {e}", directory.display()))
+                };
                 check_names(files)?;
                 into_directory(directory, files).map_err(fail)?;
-                Ok(files.first().map_or(directory.clone(), |f| directory.join(&f.path)))
+                Ok(files
+                    .first()
+                    .map_or(directory.clone(), |f| directory.join(&f.path)))
             }
             Target::File(path) => {
                 let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
                 let matches = |f: &&OutputFile| Path::new(&f.path).extension() == Some(&ending);
                 let file = files.iter().find(matches).ok_or_else(|| {
-                    Diagnostic::error(format!("the run made no .{} file", ending.to_string_lossy()))
-                        .help("the scene's `output` section may have switched it off")
+                    Diagnostic::error(format!(
+                        "the run made no .{} file",
+                        ending.to_string_lossy()
+                    ))
+                    .help("the scene's `output` section may have switched it off")
                 })?;
-                into_file(path, &file.bytes)
-                    .map_err(|e| Diagnostic::error(format!("cannot write \"{}\": {e}", path.display())))?;
+                into_file(path, &file.bytes).map_err(|e| {
+                    Diagnostic::error(format!("cannot write \"{}\": {e}", path.display()))
+                })?;
                 Ok(path.clone())
             }
         }
@@ -77,9 +98,16 @@ impl Target {
 
 /// Output names come from the program; a slip there must not write elsewhere.
 fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
-    let stays = |f: &&OutputFile| Path::new(&f.path).components().all(|c| matches!(c, Component::Normal(_)));
+    let stays = |f: &&OutputFile| {
+        Path::new(&f.path)
+            .components()
+            .all(|c| matches!(c, Component::Normal(_)))
+    };
     match files.iter().find(|f| !stays(f)) {
-        Some(file) => Err(Diagnostic::error(format!("output name \"{}\" leaves the output directory", file.path))),
+        Some(file) => Err(Diagnostic::error(format!(
+            "output name \"{}\" leaves the output directory",
+            file.path
+        ))),
         None => Ok(()),
     }
 }
@@ -87,7 +115,9 @@ fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
 fn into_directory(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
     let parent = parent(directory);
     fs::create_dir_all(parent)?;
-    let staging = tempfile::Builder::new().prefix(".pillarforest-").tempdir_in(parent)?;
+    let staging = tempfile::Builder::new()
+        .prefix(".pillarforest-")
+        .tempdir_in(parent)?;
     for file in files {
         let path = staging.path().join(&file.path);
         fs::create_dir_all(self::parent(&path))?;
@@ -105,7 +135,9 @@ fn into_directory(directory: &Path, files: &[OutputFile]) -> std::io::Result<()>
 /// Writes one file by way of a temporary one beside it.
 pub fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     fs::create_dir_all(parent(path))?;
-    let staging = tempfile::Builder::new().prefix(".pillarforest-").tempdir_in(parent(path))?;
+    let staging = tempfile::Builder::new()
+        .prefix(".pillarforest-")
+        .tempdir_in(parent(path))?;
     let staged = staging.path().join("file");
     fs::write(&staged, bytes)?;
     fs::rename(&staged, path)?;
@@ -113,5 +145,7 @@ pub fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
 }
 
 fn parent(path: &Path) -> &Path {
-    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    path.parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }

@@ -32,13 +32,17 @@ pub struct Slab {
 pub struct Eye {
     pub view: String,
     pub at: DVec3,
-    pub look_at: Option<DVec3>,
     pub span: Span,
-    pub look_span: Option<Span>,
 }
 
 /// All of them.
-pub fn all(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, eyes: &[Eye], printer: &Printer) {
+pub fn all(
+    reader: &mut Reader,
+    pillars: &[Standing],
+    base: Option<&Slab>,
+    eyes: &[Eye],
+    printer: &Printer,
+) {
     gaps(reader, pillars, printer);
     slimness(reader, pillars, printer);
     if let Some(slab) = base {
@@ -47,7 +51,7 @@ pub fn all(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, eyes:
     plate(reader, pillars, base, printer);
     eye_pairs(reader, eyes);
     for eye in eyes {
-        let problem = directions(eye).or_else(|| place(eye, pillars, base, reader.unit_name));
+        let problem = place(eye, pillars, base, reader.unit_name);
         reader.problems.extend(problem);
     }
 }
@@ -55,7 +59,7 @@ pub fn all(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, eyes:
 /// Overlapping pillars are errors, gaps that fuse on the printer warnings: the first of each pair of places in the text.
 fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
     let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
-    let mut worst: BTreeMap<(usize, usize, bool), (usize, usize, f64, usize)> = BTreeMap::new();
+    let mut worst: BTreeMap<(usize, usize, bool), Tight> = BTreeMap::new();
     for (i, j) in neighbours(pillars, narrow) {
         let (a, b) = (&pillars[i], &pillars[j]);
         let gap = match (a.round, b.round) {
@@ -64,38 +68,100 @@ fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
         };
         if gap < narrow {
             let key = (a.span.start, b.span.start, gap <= 0.0);
-            let entry = worst.entry(key).or_insert((i, j, gap, 0));
-            entry.3 += 1;
-            if gap < entry.2 {
-                (entry.0, entry.1, entry.2) = (i, j, gap);
+            let tight = worst.entry(key).or_insert(Tight {
+                a: i,
+                b: j,
+                gap,
+                pairs: 0,
+            });
+            tight.pairs += 1;
+            if gap < tight.gap {
+                (tight.a, tight.b, tight.gap) = (i, j, gap);
             }
         }
     }
-    for ((_, _, overlap), (i, j, gap, count)) in worst.into_iter().take(20) {
-        let problem = gap_problem(&pillars[i], &pillars[j], gap, overlap, count, narrow);
+    // Twenty say as much as two hundred.
+    for tight in worst.values().take(20) {
+        let problem = gap_problem(&pillars[tight.a], &pillars[tight.b], tight, narrow);
         reader.problems.push(problem);
     }
 }
 
-fn gap_problem(a: &Standing, b: &Standing, gap: f64, overlap: bool, count: usize, narrow: f64) -> Diagnostic {
-    let more = if count > 1 { format!(" (and {} more pairs)", count - 1) } else { String::new() };
+/// The tightest of several pairs of pillars.
+struct Tight {
+    a: usize,
+    b: usize,
+    /// Millimetres; zero or less if they overlap.
+    gap: f64,
+    pairs: usize,
+}
+
+fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, narrow: f64) -> Diagnostic {
+    let (gap, count, overlap) = (tight.gap, tight.pairs, tight.gap <= 0.0);
+    let more = if count > 1 {
+        format!(" (and {} more pairs)", count - 1)
+    } else {
+        String::new()
+    };
     let apart = short(a.axis.distance(b.axis));
     if overlap {
-        let radii = if a.round && b.round { format!("radius {} mm and {} mm but ", short(a.reach), short(b.reach)) } else { String::new() };
-        let label = if gap < 0.0 { format!("overlaps {} by {} mm", a.name, short(-gap)) } else { format!("touches or overlaps {}", a.name) };
+        let size = |p: &Standing| {
+            if p.round {
+                p.reach
+            } else {
+                shapes::narrowest(&p.profile)
+            }
+        };
+        let sizes = if (size(a) - size(b)).abs() < 1e-6 {
+            short(size(a))
+        } else {
+            format!("{} mm and {}", short(size(a)), short(size(b)))
+        };
+        let radii = match (a.round, b.round) {
+            (true, true) => format!("radius {sizes} mm but "),
+            (false, false) => format!("{sizes} mm wide but "),
+            _ => String::new(),
+        };
+        let label = if gap < 0.0 {
+            format!("overlaps {} by {} mm", a.name, short(-gap))
+        } else {
+            format!("touches or overlaps {}", a.name)
+        };
         let wanted = a.reach + b.reach + narrow;
-        return error_at(&b.span, format!("pillars overlap: {radii}centres {apart} mm apart{more}"))
-            .label(label)
-            .help(format!("put the centres at least {} mm apart, or make the pillars thinner", short(wanted)));
+        return error_at(
+            &b.span,
+            format!("pillars overlap: {radii}centres {apart} mm apart{more}"),
+        )
+        .label(label)
+        .help(format!(
+            "put the centres at least {} mm apart, or make the pillars thinner",
+            short(wanted)
+        ));
     }
-    warning_at(&b.span, format!("the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed", a.name, b.name, short(gap)))
-        .help(format!("leave at least {narrow} mm, or change `printer: (nozzle: ...)`"))
+    warning_at(
+        &b.span,
+        format!(
+            "the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed",
+            a.name,
+            b.name,
+            short(gap)
+        ),
+    )
+    .help(format!(
+        "leave at least {narrow} mm, or change `printer: (nozzle: ...)`"
+    ))
 }
 
 /// Pairs of pillars whose circles come nearer than `margin`, in order: a sweep over x.
 fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
     let mut order: Vec<usize> = (0..pillars.len()).collect();
-    order.sort_by(|&a, &b| pillars[a].axis.x.total_cmp(&pillars[b].axis.x).then(a.cmp(&b)));
+    order.sort_by(|&a, &b| {
+        pillars[a]
+            .axis
+            .x
+            .total_cmp(&pillars[b].axis.x)
+            .then(a.cmp(&b))
+    });
     let widest = pillars.iter().map(|p| p.reach).fold(0.0, f64::max);
     let mut pairs = Vec::new();
     for (k, &i) in order.iter().enumerate() {
@@ -103,7 +169,9 @@ fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
             if pillars[j].axis.x - pillars[i].axis.x > pillars[i].reach + widest + margin {
                 break;
             }
-            if pillars[i].axis.distance(pillars[j].axis) < pillars[i].reach + pillars[j].reach + margin {
+            if pillars[i].axis.distance(pillars[j].axis)
+                < pillars[i].reach + pillars[j].reach + margin
+            {
                 pairs.push((i.min(j), i.max(j)));
             }
             // A heap of pillars in one spot would make this quadratic; what is found by then is enough.
@@ -124,8 +192,20 @@ fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
         let width = shapes::narrowest(&pillar.profile);
         if width < thin && seen.insert((pillar.span.start, 0)) {
             reader.problems.push(
-                warning_at(&pillar.span, format!("{} is {} mm thin: walls below {} mm vanish or break with a {} mm nozzle", pillar.name, short(width), short(thin), printer.nozzle))
-                    .help(format!("make it at least {} mm wide, or change `printer: (nozzle: ...)`", short(thin))),
+                warning_at(
+                    &pillar.span,
+                    format!(
+                        "{} is {} mm thin: walls below {} mm vanish or break with a {} mm nozzle",
+                        pillar.name,
+                        short(width),
+                        short(thin),
+                        printer.nozzle
+                    ),
+                )
+                .help(format!(
+                    "make it at least {} mm wide, or change `printer: (nozzle: ...)`",
+                    short(thin)
+                )),
             );
         }
         let slim = pillar.height / width;
@@ -142,30 +222,55 @@ fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
 fn footing(reader: &mut Reader, pillars: &[Standing], slab: &Slab) {
     let mut seen = std::collections::BTreeSet::new();
     for pillar in pillars {
-        let on = pillar.profile.iter().filter(|p| shapes::contains(&slab.outline, **p)).count();
+        let on = pillar
+            .profile
+            .iter()
+            .filter(|p| shapes::contains(&slab.outline, **p))
+            .count();
         if on == pillar.profile.len() || !seen.insert((pillar.span.start, on == 0)) {
             continue;
         }
         let where_ = format!("({}, {})", short(pillar.axis.x), short(pillar.axis.y));
-        let help = "enlarge the base, leave its size out (it then fits all pillars), or move the pillar";
+        let help =
+            "enlarge the base, leave its size out (it then fits all pillars), or move the pillar";
         reader.problems.push(if on == 0 {
-            error_at(&pillar.span, format!("{} at {where_} stands beside the base", pillar.name)).help(help)
+            error_at(
+                &pillar.span,
+                format!("{} at {where_} stands beside the base", pillar.name),
+            )
+            .help(help)
         } else {
-            warning_at(&pillar.span, format!("{} at {where_} hangs over the edge of the base", pillar.name)).help(help)
+            warning_at(
+                &pillar.span,
+                format!(
+                    "{} at {where_} hangs over the edge of the base",
+                    pillar.name
+                ),
+            )
+            .help(help)
         });
     }
 }
 
 /// Size of the whole forest against the printer's bed, number of pillars against patience.
 fn plate(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, printer: &Printer) {
-    let points = pillars.iter().flat_map(|p| &p.profile).chain(base.iter().flat_map(|b| &b.outline));
-    let bounds = points.fold(None, |b: Option<(DVec2, DVec2)>, p| Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p)))));
+    let points = pillars
+        .iter()
+        .flat_map(|p| &p.profile)
+        .chain(base.iter().flat_map(|b| &b.outline));
+    let bounds = points.fold(None, |b: Option<(DVec2, DVec2)>, p| {
+        Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p))))
+    });
     let Some((lo, hi)) = bounds else { return };
-    let Some(tallest) = pillars.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else { return };
+    let Some(tallest) = pillars.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else {
+        return;
+    };
     let height = tallest.height + base.map_or(0.0, |b| b.thickness);
     let (size, [x, y, z]) = (hi - lo, printer.bed);
     let fits = (size.x <= x && size.y <= y) || (size.x <= y && size.y <= x);
-    let span = base.and_then(|b| b.span.clone()).unwrap_or(tallest.span.clone());
+    let span = base
+        .and_then(|b| b.span.clone())
+        .unwrap_or(tallest.span.clone());
     if !fits {
         reader.problems.push(
             warning_at(&span, format!("the forest is {} x {} mm, larger than the printer's bed of {x} x {y} mm", short(size.x), short(size.y)))
@@ -174,14 +279,27 @@ fn plate(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, printer
     }
     if height > z {
         reader.problems.push(
-            warning_at(&tallest.span, format!("the forest is {} mm tall, taller than the printer's {z} mm", short(height)))
-                .help("lower the pillars, or print them in pieces"),
+            warning_at(
+                &tallest.span,
+                format!(
+                    "the forest is {} mm tall, taller than the printer's {z} mm",
+                    short(height)
+                ),
+            )
+            .help("lower the pillars, or print them in pieces"),
         );
     }
     if pillars.len() as u64 > defaults::MANY_PILLARS {
         reader.problems.push(
-            warning_at(&span, format!("{} pillars: slicers take hours for more than about {}", pillars.len(), defaults::MANY_PILLARS))
-                .help("fewer, thicker pillars show models as well"),
+            warning_at(
+                &span,
+                format!(
+                    "{} pillars: slicers take hours for more than about {}",
+                    pillars.len(),
+                    defaults::MANY_PILLARS
+                ),
+            )
+            .help("fewer, thicker pillars show models as well"),
         );
     }
 }
@@ -200,17 +318,22 @@ fn eye_pairs(reader: &mut Reader, eyes: &[Eye]) {
 }
 
 /// An eye must look somewhere, and not straight down.
-fn directions(eye: &Eye) -> Option<Diagnostic> {
-    let gaze = eye.look_at? - eye.at;
-    let span = eye.look_span.as_ref().unwrap_or(&eye.span);
+pub fn direction(view: &str, eye: DVec3, look_at: DVec3, span: &Span) -> Option<Diagnostic> {
+    let gaze = look_at - eye;
     if gaze.length() < 1e-3 {
-        return Some(error_at(span, format!("view \"{}\" looks at its own eye: it has no direction", eye.view)).help("`look_at` is a point in the middle of what is seen"));
+        let problem = error_at(
+            span,
+            format!("view \"{view}\" looks at its own eye: it has no direction"),
+        );
+        return Some(problem.help("`look_at` is a point in the middle of what is seen"));
     }
     if gaze.truncate().length() < 0.05 * gaze.z.abs() {
-        return Some(
-            error_at(&eye.span, format!("view \"{}\" looks straight {}: pillars show nothing but their ends", eye.view, if gaze.z < 0.0 { "down" } else { "up" }))
-                .help("put the eye to the side of the forest"),
+        let way = if gaze.z < 0.0 { "down" } else { "up" };
+        let problem = error_at(
+            span,
+            format!("view \"{view}\" looks straight {way}: pillars show nothing but their ends"),
         );
+        return Some(problem.help("put the eye to the side of the forest"));
     }
     None
 }
@@ -221,21 +344,46 @@ fn place(eye: &Eye, pillars: &[Standing], base: Option<&Slab>, unit: &str) -> Op
     let thickness = base.map_or(0.0, |b| b.thickness);
     if let Some(slab) = base {
         if eye.at.z < -thickness {
-            return Some(error_at(&eye.span, format!("the eye of view \"{}\" is below the base: it sees only the underside", eye.view)).help("z points up; the top of the base is z = 0"));
+            return Some(
+                error_at(
+                    &eye.span,
+                    format!(
+                        "the eye of view \"{}\" is below the base: it sees only the underside",
+                        eye.view
+                    ),
+                )
+                .help("z points up; the top of the base is z = 0"),
+            );
         }
         if eye.at.z <= 0.0 && shapes::contains(&slab.outline, ground) {
-            return Some(error_at(&eye.span, format!("the eye of view \"{}\" is inside the base", eye.view)));
+            return Some(error_at(
+                &eye.span,
+                format!("the eye of view \"{}\" is inside the base", eye.view),
+            ));
         }
     }
     let distance = |p: &Standing| shapes::gap_to_point(&p.profile, ground);
-    let nearest = pillars.iter().map(|p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let nearest = pillars
+        .iter()
+        .map(|p| (distance(p), p))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let tops = pillars.iter().map(|p| p.height).fold(0.0, f64::max);
     if eye.at.z > tops || nearest.0 > 20.0 {
         return None;
     }
-    let where_ = if nearest.0 <= 0.0 { "inside".to_string() } else { format!("{} mm from", short(nearest.0)) };
-    let mut problem = error_at(&eye.span, format!("the eye of view \"{}\" is {where_} pillar {}", eye.view, nearest.1.name))
-        .label("an eye stands outside the forest, some hundred mm away");
+    let where_ = if nearest.0 <= 0.0 {
+        "inside".to_string()
+    } else {
+        format!("{} mm from", short(nearest.0))
+    };
+    let mut problem = error_at(
+        &eye.span,
+        format!(
+            "the eye of view \"{}\" is {where_} pillar {}",
+            eye.view, nearest.1.name
+        ),
+    )
+    .label("an eye stands outside the forest, some hundred mm away");
     if eye.at.length() < 20.0 {
         problem = problem.help(format!("eyes are in {unit} like the rest of the scene: did you mean metres? Then write them times 1000"));
     }

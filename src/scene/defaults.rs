@@ -13,7 +13,16 @@ pub const PILLAR_HEIGHT: f64 = 90.0;
 pub const ROUND_FACETS: u32 = 64;
 
 /// Where reliefs may lie if the scene does not say: the slab that kept normals best on 8 mm pillars.
-pub const LAYER: Layer = Layer { datum: Datum::AxisPlane, front: 5.0, back: 2.0, core: 1.0 };
+pub const LAYER: Layer = Layer {
+    datum: Datum::AxisPlane,
+    front: 5.0,
+    back: 2.0,
+    core: 1.0,
+};
+/// On thinner pillars the default `back` and `core` shrink to these shares of the room behind the datum
+/// (radius or half width from the axis, width from the surface), so that such pillars work without further ado.
+pub const BACK_SHARE: f64 = 0.5;
+pub const CORE_SHARE: f64 = 0.25;
 
 /// Base: slab thickness, the room it leaves around the outermost pillar, facets of a disc.
 pub const BASE_THICKNESS: f64 = 5.0;
@@ -27,11 +36,20 @@ pub const UP: &str = "z";
 pub const FRONT: &str = "-y";
 
 /// What is minimised: the energy that keeps normals better under the same bounds (see README).
-pub const NORMAL: NormalOptions = NormalOptions { weight: FaceWeight::Area, ordering: true };
-pub const CURVATURE: CurvatureOptions = CurvatureOptions { hidden_weight: 0.1, ordering: true };
+pub const NORMAL: NormalOptions = NormalOptions {
+    weight: FaceWeight::Area,
+    ordering: true,
+};
+pub const CURVATURE: CurvatureOptions = CurvatureOptions {
+    hidden_weight: 0.1,
+    ordering: true,
+};
 pub const ENERGY: Energy = Energy::Normal(NORMAL);
 
-pub const PRINTER: Printer = Printer { nozzle: 0.4, bed: [256.0, 256.0, 256.0] };
+pub const PRINTER: Printer = Printer {
+    nozzle: 0.4,
+    bed: [256.0, 256.0, 256.0],
+};
 
 pub const OUTPUT: Output = Output {
     forest_3mf: true,

@@ -37,7 +37,10 @@ pub enum Broken {
     OpenComment(Range<usize>),
     SmartQuote(Range<usize>),
     /// A bracket without its partner, and the bracket that closes it wrongly, if any.
-    OpenBracket { open: Range<usize>, closed_by: Option<Range<usize>> },
+    OpenBracket {
+        open: Range<usize>,
+        closed_by: Option<Range<usize>>,
+    },
     StrayBracket(Range<usize>),
     TooDeep(Range<usize>),
 }
@@ -69,10 +72,14 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
             b @ (b'(' | b'[' | b'{') => (Kind::Open(b), 1),
             b @ (b')' | b']' | b'}') => (Kind::Close(b), 1),
             b @ (b',' | b':') => (Kind::Mark(b), 1),
-            b'"' => (Kind::Text, string(rest).ok_or(Broken::OpenString(many_lined.clone().unwrap_or(at..at + 1)))?),
-            b'r' if raw_hashes(rest).is_some() => {
-                (Kind::Text, raw_string(rest).ok_or(Broken::OpenString(at..at + 2))?)
-            }
+            b'"' => (
+                Kind::Text,
+                string(rest).ok_or(Broken::OpenString(many_lined.clone().unwrap_or(at..at + 1)))?,
+            ),
+            b'r' if raw_hashes(rest).is_some() => (
+                Kind::Text,
+                raw_string(rest).ok_or(Broken::OpenString(at..at + 2))?,
+            ),
             _ => (Kind::Word, word(rest)),
         };
         let span = at..at + length;
@@ -80,7 +87,10 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
             let line = rest.find('\n').unwrap_or(length);
             many_lined = Some(at..at + line);
         }
-        if let Some((i, c)) = (kind == Kind::Word).then(|| smart_quote(&rest[..length])).flatten() {
+        if let Some((i, c)) = (kind == Kind::Word)
+            .then(|| smart_quote(&rest[..length]))
+            .flatten()
+        {
             return Err(Broken::SmartQuote(at + i..at + i + c.len_utf8()));
         }
         list.push(Token { kind, span });
@@ -101,7 +111,10 @@ pub fn balanced(tokens: &[Token]) -> Result<(), Broken> {
             Kind::Close(b) => match open.pop() {
                 None => return Err(Broken::StrayBracket(token.span.clone())),
                 Some((o, span)) if partner(o) != b => {
-                    return Err(Broken::OpenBracket { open: span, closed_by: Some(token.span.clone()) });
+                    return Err(Broken::OpenBracket {
+                        open: span,
+                        closed_by: Some(token.span.clone()),
+                    });
                 }
                 Some(_) => {}
             },
@@ -112,7 +125,10 @@ pub fn balanced(tokens: &[Token]) -> Result<(), Broken> {
         }
     }
     match open.pop() {
-        Some((_, span)) => Err(Broken::OpenBracket { open: span, closed_by: None }),
+        Some((_, span)) => Err(Broken::OpenBracket {
+            open: span,
+            closed_by: None,
+        }),
         None => Ok(()),
     }
 }
@@ -191,11 +207,17 @@ fn raw_string(text: &str) -> Option<usize> {
 /// Length of the word at the start, at least one character.
 fn word(text: &str) -> usize {
     let stop = |c: char| c.is_whitespace() || "()[]{},:\"".contains(c);
-    let length = text.find(stop).unwrap_or(text.len());
-    let length = text.find("//").unwrap_or(length).min(text.find("/*").unwrap_or(length)).min(length);
-    if length > 0 { length } else { text.chars().next().map_or(1, char::len_utf8) }
+    let run = &text[..text.find(stop).unwrap_or(text.len())];
+    let comment = run.find("//").into_iter().chain(run.find("/*")).min();
+    let length = comment.unwrap_or(run.len());
+    if length > 0 {
+        length
+    } else {
+        text.chars().next().map_or(1, char::len_utf8)
+    }
 }
 
 fn smart_quote(word: &str) -> Option<(usize, char)> {
-    word.char_indices().find(|(_, c)| "\u{201c}\u{201d}\u{201e}\u{2018}\u{2019}\u{00ab}\u{00bb}".contains(*c))
+    word.char_indices()
+        .find(|(_, c)| "\u{201c}\u{201d}\u{201e}\u{2018}\u{2019}\u{00ab}\u{00bb}".contains(*c))
 }

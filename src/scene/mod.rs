@@ -2,9 +2,11 @@
 
 mod checks;
 pub mod defaults;
+mod explain;
 mod layout;
 mod lexer;
 mod names;
+mod options;
 mod placing;
 mod raw;
 mod reader;

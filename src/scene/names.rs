@@ -4,7 +4,9 @@ use super::defaults;
 use super::reader::{Reader, Span, error_at, printable, warning_at};
 
 /// Names no Windows file may have.
-const RESERVED: [&str; 10] = ["con", "prn", "aux", "nul", "com1", "com2", "com3", "lpt1", "lpt2", "lpt3"];
+const RESERVED: [&str; 10] = [
+    "con", "prn", "aux", "nul", "com1", "com2", "com3", "lpt1", "lpt2", "lpt3",
+];
 
 /// A name fit for a file on any system, or `None` after an error.
 ///
@@ -16,7 +18,10 @@ pub fn checked(reader: &mut Reader, name: &str, span: &Span, owner: &str) -> Opt
     let problem = if name.trim().is_empty() {
         Some(fail("is empty"))
     } else if name.chars().count() > defaults::LONGEST_NAME {
-        Some(fail(&format!("is longer than {} characters", defaults::LONGEST_NAME)))
+        Some(fail(&format!(
+            "is longer than {} characters",
+            defaults::LONGEST_NAME
+        )))
     } else if name.contains('\0') {
         Some(fail("holds a NUL character"))
     } else if name.contains(['/', '\\']) || name.starts_with('.') {
@@ -25,12 +30,20 @@ pub fn checked(reader: &mut Reader, name: &str, span: &Span, owner: &str) -> Opt
         None
     };
     if let Some(problem) = problem {
-        reader.problems.push(problem.help("use letters, digits, `-` and `_`"));
+        reader
+            .problems
+            .push(problem.help("use letters, digits, `-` and `_`"));
         return None;
     }
     let fit = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ' ' | '.');
-    let mut safe: String = name.trim().chars().map(|c| if fit(c) { c } else { '_' }).collect();
-    if RESERVED.contains(&safe.split('.').next().unwrap_or("").to_lowercase().as_str()) || safe.ends_with('.') {
+    let mut safe: String = name
+        .trim()
+        .chars()
+        .map(|c| if fit(c) { c } else { '_' })
+        .collect();
+    if RESERVED.contains(&safe.split('.').next().unwrap_or("").to_lowercase().as_str())
+        || safe.ends_with('.')
+    {
         safe.push('_');
     }
     if safe != name {

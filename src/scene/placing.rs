@@ -67,8 +67,11 @@ impl Placing {
 impl Fit {
     fn matrix(&self, mesh: &TriMesh, unit: f64, eye: DVec3) -> DMat4 {
         // In the upright frame x is the model's left-right, -y its front, z up.
-        let upright = DMat3::from_cols((-self.front).cross(self.up), -self.front, self.up).transpose();
-        let Some((lo, hi)) = bounds(mesh, DMat3::from_rotation_z(self.spin) * upright) else { return DMat4::IDENTITY };
+        let upright =
+            DMat3::from_cols((-self.front).cross(self.up), -self.front, self.up).transpose();
+        let Some((lo, hi)) = bounds(mesh, DMat3::from_rotation_z(self.spin) * upright) else {
+            return DMat4::IDENTITY;
+        };
         let extent = (hi - lo).max(DVec3::splat(1e-12));
         let scale = match self.size {
             Size::AsIs => unit,
@@ -77,12 +80,17 @@ impl Fit {
             Size::Largest(l) => l / extent.max_element(),
         };
         let to_eye = self.facing.unwrap_or((eye - self.at).truncate());
-        let to_eye = if to_eye.length() > 1e-9 { to_eye.normalize() } else { DVec2::NEG_Y };
+        let to_eye = if to_eye.length() > 1e-9 {
+            to_eye.normalize()
+        } else {
+            DVec2::NEG_Y
+        };
         // Turns -y to the eye.
         let facing = DMat3::from_rotation_z(to_eye.perp().to_angle());
         let underside = DVec3::new((lo.x + hi.x) / 2.0, (lo.y + hi.y) / 2.0, lo.z);
         let turned = facing * DMat3::from_rotation_z(self.spin) * upright;
-        DMat4::from_translation(self.at - scale * (facing * underside)) * DMat4::from_mat3(scale * turned)
+        DMat4::from_translation(self.at - scale * (facing * underside))
+            * DMat4::from_mat3(scale * turned)
     }
 }
 
@@ -99,7 +107,9 @@ pub fn placing(reader: &mut Reader, field: &Field<RawPlace>) -> Option<(Placing,
         None if matches!(field, Field::Given(_)) => None,
         None => Some((Placing::Fit(fit(reader, &bare)?), None)),
         Some((RawPlace::Fit(raw), span)) => Some((Placing::Fit(fit(reader, raw)?), Some(span))),
-        Some((RawPlace::Matrix(rows), span)) => Some((Placing::Matrix(matrix(reader, rows, &span)?), Some(span))),
+        Some((RawPlace::Matrix(rows), span)) => {
+            Some((Placing::Matrix(matrix(reader, rows, &span)?), Some(span)))
+        }
     }
 }
 
@@ -109,37 +119,70 @@ fn fit(reader: &mut Reader, raw: &RawFit) -> Option<Fit> {
     let up = axis(reader, &raw.up, "up", defaults::UP);
     let front = axis(reader, &raw.front, "front", defaults::FRONT);
     let facing = reader.point_field(&raw.facing, "facing");
-    let spin = reader.number(&raw.spin, "spin").map_or(0.0, |(degrees, _)| degrees.to_radians());
-    let at = reader.point_field(&raw.at, "at").map_or(DVec3::ZERO, |(p, _)| p.into());
-    if let Some((_, span)) = facing.as_ref().filter(|(p, _)| DVec2::from(*p).length() < 1e-9) {
-        reader.error(span, "`facing` is (0, 0); it must point somewhere in the ground plane");
+    let spin = reader
+        .number(&raw.spin, "spin")
+        .map_or(0.0, |(degrees, _)| degrees.to_radians());
+    let at = reader
+        .point_field(&raw.at, "at")
+        .map_or(DVec3::ZERO, |(p, _)| p.into());
+    if let Some((_, span)) = facing
+        .as_ref()
+        .filter(|(p, _)| DVec2::from(*p).length() < 1e-9)
+    {
+        reader.error(
+            span,
+            "`facing` is (0, 0); it must point somewhere in the ground plane",
+        );
     }
     let (up, front) = (up?, front?);
     if up.0.dot(front.0).abs() > 0.5 {
         let span = front.1.or(up.1).unwrap_or(0..0);
-        reader.error(&span, "`up` and `front` are the same axis of the file; they must be square to each other");
+        reader.error(
+            &span,
+            "`up` and `front` are the same axis of the file; they must be square to each other",
+        );
     }
     let facing = facing.map(|(p, _)| p.into());
-    (reader.problems.len() == before).then_some(Fit { size, up: up.0, front: front.0, facing, spin, at })
+    (reader.problems.len() == before).then_some(Fit {
+        size,
+        up: up.0,
+        front: front.0,
+        facing,
+        spin,
+        at,
+    })
 }
 
 fn size(reader: &mut Reader, raw: &RawFit) -> Size {
     let height = super::layout::positive_at(reader, &raw.height, "height");
     let width = super::layout::positive_at(reader, &raw.width, "width");
     let largest = super::layout::positive_at(reader, &raw.largest, "largest");
-    let sizes = [height.map(|(v, s)| (Size::Height(v), s)), width.map(|(v, s)| (Size::Width(v), s)), largest.map(|(v, s)| (Size::Largest(v), s))];
+    let sizes = [
+        height.map(|(v, s)| (Size::Height(v), s)),
+        width.map(|(v, s)| (Size::Width(v), s)),
+        largest.map(|(v, s)| (Size::Largest(v), s)),
+    ];
     let mut given = sizes.into_iter().flatten();
     let first = given.next().map_or(Size::AsIs, |(size, _)| size);
     if let Some((_, span)) = given.next() {
         reader.problems.push(
-            error_at(&span, "a model is fitted to one size only: height, width or largest").label("a second size"),
+            error_at(
+                &span,
+                "a model is fitted to one size only: height, width or largest",
+            )
+            .label("a second size"),
         );
     }
     first
 }
 
 /// An axis of the file: `"z"`, `"+z"`, `"-y"`.
-fn axis(reader: &mut Reader, field: &Field<String>, name: &str, default: &str) -> Option<(DVec3, Option<Span>)> {
+fn axis(
+    reader: &mut Reader,
+    field: &Field<String>,
+    name: &str,
+    default: &str,
+) -> Option<(DVec3, Option<Span>)> {
     let (text, span) = match reader.given(field) {
         Some((text, span)) => (text.as_str(), Some(span)),
         None if matches!(field, Field::Given(_)) => return None,
@@ -160,12 +203,21 @@ fn axis(reader: &mut Reader, field: &Field<String>, name: &str, default: &str) -
 
 /// A row-major affine matrix that can be undone.
 fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMat4> {
-    let given: Vec<[f64; 4]> = list.iter().filter_map(|row| reader.value(row).copied()).collect();
+    let given: Vec<[f64; 4]> = list
+        .iter()
+        .filter_map(|row| reader.value(row).copied())
+        .collect();
     if given.len() < list.len() {
         return None;
     }
     let Ok(rows) = <[[f64; 4]; 4]>::try_from(given) else {
-        reader.error(span, format!("a placing matrix has four rows of four numbers, found {} rows", list.len()));
+        reader.error(
+            span,
+            format!(
+                "a placing matrix has four rows of four numbers, found {} rows",
+                list.len()
+            ),
+        );
         return None;
     };
     if rows.iter().flatten().any(|v| !v.is_finite()) {
@@ -183,11 +235,17 @@ fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMa
     let columns = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
     let determinant = matrix.determinant();
     if columns == 0.0 || determinant.abs() < 1e-9 * columns {
-        reader.error(span, "the matrix squeezes the model flat: its determinant is 0");
+        reader.error(
+            span,
+            "the matrix squeezes the model flat: its determinant is 0",
+        );
         return None;
     }
     if determinant < 0.0 {
-        reader.problems.push(super::reader::warning_at(span, "the matrix mirrors the model: its determinant is negative"));
+        reader.problems.push(super::reader::warning_at(
+            span,
+            "the matrix mirrors the model: its determinant is negative",
+        ));
     }
     Some(matrix)
 }
@@ -197,14 +255,23 @@ pub fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnos
     let (lo, hi) = mesh.bounds()?;
     let largest = (hi - lo).max_element();
     let say = |text: &str, help: &str| {
-        let message = format!("model \"{name}\" is {} mm large in the scene{text}", short(largest));
+        let message = format!(
+            "model \"{name}\" is {} mm large in the scene{text}",
+            short(largest)
+        );
         super::reader::warning_at(span, message).help(help)
     };
     if largest < 2.0 {
-        return Some(say(": too small to be seen or printed", "saved in metres? add `units: m` to the model, or fit it: `place: Fit(height: 60)`"));
+        return Some(say(
+            ": too small to be seen or printed",
+            "saved in metres? add `units: m` to the model, or fit it: `place: Fit(height: 60)`",
+        ));
     }
     if largest > 1500.0 {
-        return Some(say(": larger than any printer", "fit it: `place: Fit(height: 60)`, or give its `units`"));
+        return Some(say(
+            ": larger than any printer",
+            "fit it: `place: Fit(height: 60)`, or give its `units`",
+        ));
     }
     None
 }

@@ -106,6 +106,7 @@ pub enum RawUnit {
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per model, short-lived
 pub enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
@@ -120,6 +121,7 @@ pub enum RawShape {
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per entry, short-lived
 pub enum RawPlaces {
     At(List<[f64; 2]>),
     Grid(RawGrid),

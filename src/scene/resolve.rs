@@ -6,14 +6,13 @@
 
 use super::checks::{self, Eye};
 use super::placing::{self, Placing};
-use super::raw::{List, RawEnergy, RawModel, RawOutput, RawPrinter, RawScene, RawView, RawWeight, Wanted};
-use super::reader::{self, Reader, Span, error_at, nearest, printable, short};
+use super::raw::{List, RawModel, RawScene, RawView, Wanted};
+use super::reader::{Reader, Span, error_at, nearest, printable, short};
 use super::spanned::{self, Field};
-use super::{defaults, lexer, names, supports};
+use super::{defaults, explain, lexer, names, options, supports, tree};
 use crate::diag::{Diagnostic, Place, Severity, Warned};
 use crate::mesh::TriMesh;
-use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
-use crate::scene::{Output, Printer, Scene};
+use crate::scene::Scene;
 use crate::view::{PlacedModel, View};
 use glam::DVec3;
 
@@ -48,20 +47,75 @@ struct Draft {
 /// Every problem found, warnings among them, at least one of them an error.
 pub fn resolve(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let raw = parse(text)?;
-    let mut reader = Reader::new(text);
-    let scene = build(&mut reader, &raw, read);
-    let mut problems = reader.problems;
-    let place = |d: &Diagnostic| match &d.place {
-        Some(Place::Scene(span)) => span.start,
-        _ => usize::MAX,
+    let mut text = text.to_string();
+    let mut unknown: Vec<Diagnostic> = Vec::new();
+    let (mut problems, mut scene) = attempt(&text, read);
+    // A struct with an unknown field tells nothing else: read on without such fields.
+    for _ in 0..ROUNDS {
+        let (fresh, rest): (Vec<_>, Vec<_>) = problems.into_iter().partition(is_unknown_field);
+        problems = rest;
+        if fresh.is_empty() {
+            break;
+        }
+        text = fresh.iter().fold(text, |text, problem| {
+            tree::without_field(&text, start(problem))
+        });
+        unknown.extend(fresh);
+        (problems, scene) = attempt(&text, read);
+    }
+    // `pich` is one mistake, not an unknown field and a missing `pitch`.
+    let meant = |p: &Diagnostic| {
+        unknown
+            .iter()
+            .any(|u| meant_field(u).is_some_and(|g| p.message.ends_with(&format!("has no `{g}`"))))
     };
-    problems.sort_by_key(place);
+    problems.retain(|p| !meant(p));
+    problems.extend(unknown);
+    problems.sort_by_key(start);
     problems.dedup();
     match scene {
-        Some(value) if problems.iter().all(|d| d.severity == Severity::Warning) => Ok(Warned { value, warnings: problems }),
+        Some(value) if problems.iter().all(|d| d.severity == Severity::Warning) => Ok(Warned {
+            value,
+            warnings: problems,
+        }),
         _ => Err(problems),
     }
+}
+
+/// How often a scene is read again without its unknown fields; deeper nests of them are not worth more.
+const ROUNDS: usize = 4;
+
+fn attempt(text: &str, read: ReadFile) -> (Vec<Diagnostic>, Option<Scene>) {
+    match parse(text) {
+        Err(problems) => (problems, None),
+        Ok(raw) => {
+            let mut reader = Reader::new(text);
+            let scene = build(&mut reader, &raw, read);
+            (reader.problems, scene)
+        }
+    }
+}
+
+/// Byte at which a problem's place starts; problems without a place in the text come last.
+fn start(problem: &Diagnostic) -> usize {
+    match &problem.place {
+        Some(Place::Scene(span)) => span.start,
+        _ => usize::MAX,
+    }
+}
+
+fn is_unknown_field(problem: &Diagnostic) -> bool {
+    problem.message.starts_with(explain::UNKNOWN_FIELD)
+}
+
+/// The field that was meant by an unknown one, if its message guesses.
+fn meant_field(unknown: &Diagnostic) -> Option<&str> {
+    unknown
+        .message
+        .split_once("did you mean `")?
+        .1
+        .split('`')
+        .next()
 }
 
 /// Text to raw scene.
@@ -78,25 +132,39 @@ fn parse(text: &str) -> Result<RawScene, Vec<Diagnostic>> {
         Some(b'(' | b'#') => {}
         _ => {
             let found = printable(text[first.start..].lines().next().unwrap_or(""));
-            return Err(vec![error_at(&first, format!("expected {}, found `{found}`", RawScene::WANTED))]);
+            return Err(vec![error_at(
+                &first,
+                format!("expected {}, found `{found}`", RawScene::WANTED),
+            )]);
         }
     }
-    spanned::options().from_str(text).map_err(|error| reader::explain(text, &whole, &error, RawScene::WANTED))
+    spanned::options()
+        .from_str(text)
+        .map_err(|error| explain::explain(text, &whole, &error, RawScene::WANTED))
 }
 
 /// Refuses what is no scene at all, before RON sees it.
 fn screen(text: &str) -> Result<Vec<lexer::Token>, Diagnostic> {
     if text.trim().is_empty() {
-        return Err(Diagnostic::error("the scene file is empty").help("`pillarforest init` writes a scene to start from"));
+        return Err(Diagnostic::error("the scene file is empty")
+            .help("`pillarforest init` writes a scene to start from"));
     }
     if text.len() > defaults::LONGEST_TEXT {
-        return Err(Diagnostic::error(format!("the scene is {} MB of text; the limit is {} MB", text.len() >> 20, defaults::LONGEST_TEXT >> 20)));
+        return Err(Diagnostic::error(format!(
+            "the scene is {} MB of text; the limit is {} MB",
+            text.len() >> 20,
+            defaults::LONGEST_TEXT >> 20
+        )));
     }
-    let tokens = lexer::tokens(text).map_err(|broken| reader::broken(text, broken))?;
+    let tokens = lexer::tokens(text).map_err(|broken| explain::broken(text, broken))?;
     if tokens.is_empty() {
-        return Err(error_at(&(0..text.trim_end().len().min(80)), "the scene holds nothing but comments").help("`pillarforest init` writes a scene to start from"));
+        return Err(error_at(
+            &(0..text.trim_end().len().min(80)),
+            "the scene holds nothing but comments",
+        )
+        .help("`pillarforest init` writes a scene to start from"));
     }
-    lexer::balanced(&tokens).map_err(|broken| reader::broken(text, broken))?;
+    lexer::balanced(&tokens).map_err(|broken| explain::broken(text, broken))?;
     Ok(tokens)
 }
 
@@ -109,24 +177,48 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
     let mut models = models(reader, &raw.models, &whole);
     let drafts = drafts(reader, &raw.views, &whole, models.as_deref());
     let supports = supports::supports(reader, raw, &whole);
-    let energy = energy(reader, &raw.energy);
-    let printer = printer(reader, &raw.printer);
-    let output = output(reader, &raw.output);
+    let energy = options::energy(reader, &raw.energy);
+    let printer = options::printer(reader, &raw.printer);
+    let output = options::output(reader, &raw.output);
     let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
-    checks::all(reader, &supports.pillars, supports.base.as_ref(), &eyes, &printer);
+    checks::all(
+        reader,
+        &supports.pillars,
+        supports.base.as_ref(),
+        &eyes,
+        &printer,
+    );
     for model in models.iter_mut().flatten() {
         load(reader, model, read);
     }
-    let views = drafts.into_iter().map(|draft| view(reader, draft, models.as_deref().unwrap_or(&[]))).collect();
+    let views = drafts
+        .into_iter()
+        .map(|draft| view(reader, draft, models.as_deref().unwrap_or(&[])))
+        .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
-    sound.then(|| Scene { title, views, supports: supports.solids(), energy, printer, output })
+    sound.then(|| Scene {
+        title,
+        views,
+        supports: supports.solids(),
+        energy,
+        printer,
+        output,
+    })
 }
 
 fn title(reader: &mut Reader, field: &Field<String>) -> String {
-    let Some((title, span)) = reader.given(field) else { return defaults::TITLE.to_string() };
+    let Some((title, span)) = reader.given(field) else {
+        return defaults::TITLE.to_string();
+    };
     let length = title.chars().count();
     if length > defaults::LONGEST_TITLE {
-        reader.error(&span, format!("the title has {length} characters; the limit is {}", defaults::LONGEST_TITLE));
+        reader.error(
+            &span,
+            format!(
+                "the title has {length} characters; the limit is {}",
+                defaults::LONGEST_TITLE
+            ),
+        );
     }
     title.clone()
 }
@@ -134,7 +226,14 @@ fn title(reader: &mut Reader, field: &Field<String>) -> String {
 fn models(reader: &mut Reader, field: &Field<List<RawModel>>, whole: &Span) -> Option<Vec<Model>> {
     let (list, span) = reader.required(field, "models", "the scene", whole)?;
     if list.is_empty() || list.len() > defaults::MOST_MODELS {
-        reader.error(&span, format!("{} models; a scene has from 1 to {}", list.len(), defaults::MOST_MODELS));
+        reader.error(
+            &span,
+            format!(
+                "{} models; a scene has from 1 to {}",
+                list.len(),
+                defaults::MOST_MODELS
+            ),
+        );
         return None;
     }
     let mut models: Vec<Model> = Vec::new();
@@ -145,7 +244,10 @@ fn models(reader: &mut Reader, field: &Field<List<RawModel>>, whole: &Span) -> O
         whole_list &= model.is_some();
         let Some(model) = model else { continue };
         if models.iter().any(|m| m.name == model.name) {
-            reader.error(&model.span, format!("two models are named \"{}\"", printable(&model.name)));
+            reader.error(
+                &model.span,
+                format!("two models are named \"{}\"", printable(&model.name)),
+            );
         }
         models.push(model);
     }
@@ -155,12 +257,24 @@ fn models(reader: &mut Reader, field: &Field<List<RawModel>>, whole: &Span) -> O
 fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
     let name = reader.required(&raw.name, "name", "this model", span);
     let name = name.and_then(|(n, at)| names::checked(reader, n, &at, "model").map(|n| (n, at)));
-    let owner = name.as_ref().map_or("this model".to_string(), |(n, _)| format!("model \"{n}\""));
+    let owner = name
+        .as_ref()
+        .map_or("this model".to_string(), |(n, _)| format!("model \"{n}\""));
     let file = reader.required(&raw.file, "file", &owner, span);
-    let unit = reader.given(&raw.units).map_or(1.0, |(u, _)| placing::unit(*u).0);
+    let unit = reader
+        .given(&raw.units)
+        .map_or(1.0, |(u, _)| placing::unit(*u).0);
     let placing = placing::placing(reader, &raw.place);
     let ((name, name_span), (file, file_span), (placing, place_span)) = (name?, file?, placing?);
-    Some(Model { name, file: file.clone(), file_span, unit, placing, span: place_span.unwrap_or(name_span), mesh: None })
+    Some(Model {
+        name,
+        file: file.clone(),
+        file_span,
+        unit,
+        placing,
+        span: place_span.unwrap_or(name_span),
+        mesh: None,
+    })
 }
 
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
@@ -173,67 +287,136 @@ fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     match parsed {
         Err(problem) => reader.problems.push(at_name(problem, &model.file_span)),
         Ok(warned) => {
-            reader.problems.extend(warned.warnings.into_iter().map(|w| at_name(w, &model.file_span)));
+            reader.problems.extend(
+                warned
+                    .warnings
+                    .into_iter()
+                    .map(|w| at_name(w, &model.file_span)),
+            );
             model.mesh = Some(warned.value);
         }
     }
 }
 
-fn drafts(reader: &mut Reader, field: &Field<List<RawView>>, whole: &Span, models: Option<&[Model]>) -> Vec<Draft> {
-    let Some((list, span)) = reader.required(field, "views", "the scene", whole) else { return Vec::new() };
+fn drafts(
+    reader: &mut Reader,
+    field: &Field<List<RawView>>,
+    whole: &Span,
+    models: Option<&[Model]>,
+) -> Vec<Draft> {
+    let Some((list, span)) = reader.required(field, "views", "the scene", whole) else {
+        return Vec::new();
+    };
     if list.is_empty() || list.len() > defaults::MOST_VIEWS {
         let help = "a view is an eye and what it sees: (name: \"front\", eye: (0, -300, 60), models: [\"owl\"])";
-        reader.problems.push(error_at(&span, format!("{} views; a scene has from 1 to {}", list.len(), defaults::MOST_VIEWS)).help(help));
+        reader.problems.push(
+            error_at(
+                &span,
+                format!(
+                    "{} views; a scene has from 1 to {}",
+                    list.len(),
+                    defaults::MOST_VIEWS
+                ),
+            )
+            .help(help),
+        );
         return Vec::new();
     }
     let mut drafts: Vec<Draft> = Vec::new();
     for (index, item) in list.iter().enumerate() {
         let span = reader.span(item);
-        let Some(raw) = reader.value(item) else { continue };
-        let Some(draft) = draft(reader, raw, &span, index, models) else { continue };
-        if drafts.iter().any(|d| d.name.to_lowercase() == draft.name.to_lowercase()) {
+        let Some(raw) = reader.value(item) else {
+            continue;
+        };
+        let Some(draft) = draft(reader, raw, &span, index, models) else {
+            continue;
+        };
+        if drafts
+            .iter()
+            .any(|d| d.name.to_lowercase() == draft.name.to_lowercase())
+        {
             let at = match &raw.name {
                 Field::Given(name) => reader.span(name),
                 Field::Missing => span,
             };
-            reader.error(&at, format!("two views are named \"{}\": their pictures would overwrite each other", draft.name));
+            reader.error(
+                &at,
+                format!(
+                    "two views are named \"{}\": their pictures would overwrite each other",
+                    draft.name
+                ),
+            );
         }
         drafts.push(draft);
     }
     drafts
 }
 
-fn draft(reader: &mut Reader, raw: &RawView, span: &Span, index: usize, models: Option<&[Model]>) -> Option<Draft> {
+fn draft(
+    reader: &mut Reader,
+    raw: &RawView,
+    span: &Span,
+    index: usize,
+    models: Option<&[Model]>,
+) -> Option<Draft> {
     let name = reader.required(&raw.name, "name", &format!("view {}", index + 1), span);
     let name = name.and_then(|(n, at)| names::checked(reader, n, &at, "view"));
     let owner = format!("view \"{}\"", name.as_deref().unwrap_or("?"));
     reader.need(&raw.eye, "eye", &owner, span);
     let eye = reader.point_field(&raw.eye, "eye");
-    let look_at = reader.point_field(&raw.look_at, "look_at").map(|(p, s)| (p.into(), s));
-    let shown = reader.required(&raw.models, "models", &owner, span).map(|(list, at)| shown(reader, list, &at, models));
+    let look_at = reader
+        .point_field(&raw.look_at, "look_at")
+        .map(|(p, s)| (p.into(), s));
+    let shown = reader
+        .required(&raw.models, "models", &owner, span)
+        .map(|(list, at)| shown(reader, list, &at, models));
     let colour = match reader.given(&raw.colour) {
         Some((text, at)) => colour(reader, text, &at),
         None => Some(defaults::PALETTE[index % defaults::PALETTE.len()]),
     };
     let (eye, eye_span) = eye?;
-    Some(Draft { name: name?, eye: eye.into(), eye_span, look_at, models: shown?, colour: colour? })
+    Some(Draft {
+        name: name?,
+        eye: eye.into(),
+        eye_span,
+        look_at,
+        models: shown?,
+        colour: colour?,
+    })
 }
 
 /// The models a view shows, each of which must exist and be named once.
-fn shown(reader: &mut Reader, list: &List<String>, span: &Span, models: Option<&[Model]>) -> Vec<(String, Span)> {
+fn shown(
+    reader: &mut Reader,
+    list: &List<String>,
+    span: &Span,
+    models: Option<&[Model]>,
+) -> Vec<(String, Span)> {
     if list.is_empty() {
         reader.error(span, "a view shows at least one model");
     }
     let mut shown: Vec<(String, Span)> = Vec::new();
     for item in list.iter().take(defaults::MOST_MODELS) {
         let at = reader.span(item);
-        let Some(name) = reader.value(item) else { continue };
+        let Some(name) = reader.value(item) else {
+            continue;
+        };
         let missing = models.is_some_and(|models| models.iter().all(|m| m.name != *name));
         if missing {
-            let known: Vec<&str> = models.unwrap_or(&[]).iter().map(|m| m.name.as_str()).collect();
-            let guess = nearest(name, known.iter().copied()).map(|g| format!(", did you mean \"{g}\"?")).unwrap_or_default();
+            let known: Vec<&str> = models
+                .unwrap_or(&[])
+                .iter()
+                .map(|m| m.name.as_str())
+                .collect();
+            let guess = nearest(name, known.iter().copied())
+                .map(|g| format!(", did you mean \"{g}\"?"))
+                .unwrap_or_default();
             reader.problems.push(
-                error_at(&at, format!("there is no model \"{}\"{guess}", printable(name))).help(format!("models of this scene: {}", known.join(", "))),
+                error_at(
+                    &at,
+                    format!("there is no model \"{}\"{guess}", printable(name)),
+                )
+                .help(format!("models of this scene: {}", known.join(", "))),
             );
         } else if shown.iter().any(|(n, _)| n == name) {
             reader.error(&at, format!("the view shows \"{}\" twice", printable(name)));
@@ -245,10 +428,13 @@ fn shown(reader: &mut Reader, list: &List<String>, span: &Span, models: Option<&
 
 /// `"#0072b2"`.
 fn colour(reader: &mut Reader, text: &str, span: &Span) -> Option<[u8; 3]> {
-    let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
+    let digits = text
+        .strip_prefix('#')
+        .filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let Some(number) = digits.and_then(|d| u32::from_str_radix(d, 16).ok()) else {
         reader.problems.push(
-            error_at(span, format!("`{}` is not a colour", printable(text))).help("write red, green and blue as six hexadecimal digits: \"#0072b2\""),
+            error_at(span, format!("`{}` is not a colour", printable(text)))
+                .help("write red, green and blue as six hexadecimal digits: \"#0072b2\""),
         );
         return None;
     };
@@ -260,9 +446,7 @@ fn eye(draft: &Draft) -> Eye {
     Eye {
         view: draft.name.clone(),
         at: draft.eye,
-        look_at: draft.look_at.as_ref().map(|(p, _)| *p),
         span: draft.eye_span.clone(),
-        look_span: draft.look_at.as_ref().map(|(_, s)| s.clone()),
     }
 }
 
@@ -270,91 +454,71 @@ fn eye(draft: &Draft) -> Eye {
 fn view(reader: &mut Reader, draft: Draft, models: &[Model]) -> View {
     let mut placed = Vec::new();
     for (name, _) in &draft.models {
-        let Some(model) = models.iter().find(|m| m.name == *name) else { continue };
+        let Some(model) = models.iter().find(|m| m.name == *name) else {
+            continue;
+        };
         let Some(mesh) = &model.mesh else { continue };
         let matrix = model.placing.matrix(mesh, model.unit, draft.eye);
         let mesh = mesh.transformed(matrix);
-        reader.problems.extend(placing::size_suspicion(name, &mesh, &model.span));
-        check_sight(reader, &draft, name, &mesh);
-        placed.push(PlacedModel { name: name.clone(), file: model.file.clone(), matrix, mesh });
+        reader
+            .problems
+            .extend(placing::size_suspicion(name, &mesh, &model.span));
+        placed.push(PlacedModel {
+            name: name.clone(),
+            file: model.file.clone(),
+            matrix,
+            mesh,
+        });
     }
-    let look_at = draft.look_at.map(|(p, _)| p).or_else(|| middle(&placed)).unwrap_or(DVec3::ZERO);
-    View { name: draft.name, eye: draft.eye, look_at, models: placed, colour: draft.colour }
+    let look_at = draft
+        .look_at
+        .as_ref()
+        .map(|(p, _)| *p)
+        .or_else(|| middle(&placed))
+        .unwrap_or(DVec3::ZERO);
+    check_sight(reader, &draft, look_at, &placed);
+    View {
+        name: draft.name,
+        eye: draft.eye,
+        look_at,
+        models: placed,
+        colour: draft.colour,
+    }
 }
 
 fn middle(models: &[PlacedModel]) -> Option<DVec3> {
     let bounds = models.iter().filter_map(|m| m.mesh.bounds());
-    bounds.reduce(|(l, h), (lo, hi)| (l.min(lo), h.max(hi))).map(|(lo, hi)| (lo + hi) / 2.0)
+    bounds
+        .reduce(|(l, h), (lo, hi)| (l.min(lo), h.max(hi)))
+        .map(|(lo, hi)| (lo + hi) / 2.0)
 }
 
-/// The whole model must lie in front of the eye.
-fn check_sight(reader: &mut Reader, draft: &Draft, name: &str, mesh: &TriMesh) {
-    let Some((lo, hi)) = mesh.bounds() else { return };
-    let target = draft.look_at.as_ref().map_or((lo + hi) / 2.0, |(p, _)| *p);
-    let gaze = (target - draft.eye).normalize_or_zero();
-    let nearest = mesh.vertices.iter().map(|v| (*v - draft.eye).dot(gaze)).fold(f64::INFINITY, f64::min);
-    if nearest < 1.0 {
-        let away = short(draft.eye.distance((lo + hi) / 2.0));
-        reader.problems.push(
-            error_at(&draft.eye_span, format!("model \"{name}\" is not wholly in front of the eye of view \"{}\": its middle is {away} mm away", draft.name))
-                .help("move the eye back, or make the model smaller: `place: Fit(height: 60)`"),
-        );
+/// The eye must have a direction and every model must lie wholly in front of it. Says nothing about an eye that is wrong already.
+fn check_sight(reader: &mut Reader, draft: &Draft, look_at: DVec3, models: &[PlacedModel]) {
+    let known = reader
+        .problems
+        .iter()
+        .any(|p| p.is_error() && start(p) == draft.eye_span.start);
+    if known || models.is_empty() {
+        return;
     }
-}
-
-fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
-    let default = match defaults::ENERGY {
-        Energy::Normal(_) => Energy::Normal(defaults::NORMAL),
-        Energy::Curvature(_) => Energy::Curvature(defaults::CURVATURE),
-    };
-    match reader.given(field).map(|(energy, _)| energy) {
-        None => default,
-        Some(RawEnergy::Normal(raw)) => {
-            let weight = match reader.given(&raw.weight) {
-                Some((RawWeight::Area, _)) => FaceWeight::Area,
-                Some((RawWeight::SolidAngle, _)) => FaceWeight::SolidAngle,
-                None => defaults::NORMAL.weight,
-            };
-            Energy::Normal(NormalOptions { weight, ordering: flag(reader, &raw.ordering, defaults::NORMAL.ordering) })
+    if let Some(problem) = checks::direction(&draft.name, draft.eye, look_at, &draft.eye_span) {
+        reader.problems.push(problem);
+        return;
+    }
+    let gaze = (look_at - draft.eye).normalize();
+    for model in models {
+        let depths = model
+            .mesh
+            .vertices
+            .iter()
+            .map(|v| (*v - draft.eye).dot(gaze));
+        if depths.fold(f64::INFINITY, f64::min) < 1.0 {
+            let away = middle(std::slice::from_ref(model)).map_or(0.0, |m| draft.eye.distance(m));
+            reader.problems.push(
+                error_at(&draft.eye_span, format!("model \"{}\" is not wholly in front of the eye of view \"{}\": its middle is {} mm away", model.name, draft.name, short(away)))
+                    .help("move the eye back, or make the model smaller: `place: Fit(height: 60)`"),
+            );
         }
-        Some(RawEnergy::Curvature(raw)) => {
-            let hidden_weight = reader.number(&raw.hidden_weight, "hidden_weight");
-            if let Some((value, span)) = hidden_weight.as_ref().filter(|(v, _)| !(1e-6..=1.0).contains(v)) {
-                reader.error(span, format!("`hidden_weight` is {value}; visible vertices count 1, hidden ones from 0.000001 to 1"));
-            }
-            let hidden_weight = hidden_weight.map_or(defaults::CURVATURE.hidden_weight, |(v, _)| v);
-            let ordering = flag(reader, &raw.ordering, defaults::CURVATURE.ordering);
-            Energy::Curvature(CurvatureOptions { hidden_weight, ordering })
-        }
-    }
-}
-
-fn flag(reader: &mut Reader, field: &Field<bool>, default: bool) -> bool {
-    reader.given(field).map_or(default, |(value, _)| *value)
-}
-
-fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
-    let Some((raw, _)) = reader.given(field) else { return defaults::PRINTER };
-    let nozzle = reader.length_from(&raw.nozzle, "nozzle", 0.05).map_or(defaults::PRINTER.nozzle, |(v, _)| v);
-    let bed = reader.point_field(&raw.bed, "bed");
-    if let Some((_, span)) = bed.as_ref().filter(|(b, _)| b.iter().any(|v| *v < 10.0)) {
-        reader.error(span, "`bed` is the printer's width, depth and height: each at least 10 mm");
-    }
-    Printer { nozzle, bed: bed.map_or(defaults::PRINTER.bed, |(b, _)| b) }
-}
-
-fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
-    let Some((raw, _)) = reader.given(field) else { return defaults::OUTPUT };
-    let under = defaults::OUTPUT;
-    let picture_size = reader.count(&raw.picture_size, "picture_size", defaults::PICTURE_SIZES);
-    let plan_width = reader.count(&raw.plan_width, "plan_width", defaults::PLAN_WIDTHS);
-    Output {
-        forest_3mf: flag(reader, &raw.forest_3mf, under.forest_3mf),
-        forest_stl: flag(reader, &raw.forest_stl, under.forest_stl),
-        forest_glb: flag(reader, &raw.forest_glb, under.forest_glb),
-        plan: flag(reader, &raw.plan, under.plan),
-        views: flag(reader, &raw.views, under.views),
-        picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
-        plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }
 }

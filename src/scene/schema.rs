@@ -28,8 +28,18 @@ const INTRO: &str = "\
 // Lengths given as defaults are millimetres whatever the units.
 ";
 
-fn field(name: &'static str, kind: &'static str, default: impl ToString, doc: &'static str) -> FieldDoc {
-    FieldDoc { name, kind, default: default.to_string(), doc }
+fn field(
+    name: &'static str,
+    kind: &'static str,
+    default: impl ToString,
+    doc: &'static str,
+) -> FieldDoc {
+    FieldDoc {
+        name,
+        kind,
+        default: default.to_string(),
+        doc,
+    }
 }
 
 const REQUIRED: &str = "required";
@@ -40,10 +50,19 @@ pub fn schema() -> String {
     for section in sections() {
         // Writing to a String cannot fail.
         let _ = write!(out, "\n{}\n    // {}\n", section.title, section.about);
-        let width = section.fields.iter().map(|f| f.name.len() + f.kind.len()).max().unwrap_or(0);
+        let width = section
+            .fields
+            .iter()
+            .map(|f| f.name.len() + f.kind.len())
+            .max()
+            .unwrap_or(0);
         for f in &section.fields {
             let pad = " ".repeat(width - f.name.len() - f.kind.len());
-            let _ = writeln!(out, "    {}: {}{pad}  [{}]  {}", f.name, f.kind, f.default, f.doc);
+            let _ = writeln!(
+                out,
+                "    {}: {}{pad}  [{}]  {}",
+                f.name, f.kind, f.default, f.doc
+            );
         }
     }
     out
@@ -51,13 +70,26 @@ pub fn schema() -> String {
 
 /// All sections in reading order.
 pub fn sections() -> Vec<Section> {
-    [scene_sections(), pillar_sections(), place_sections(), other_sections()].into_iter().flatten().collect()
+    [
+        scene_sections(),
+        pillar_sections(),
+        place_sections(),
+        other_sections(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 fn section(title: &'static str, about: &'static str, fields: Vec<FieldDoc>) -> Section {
-    Section { title, about, fields }
+    Section {
+        title,
+        about,
+        fields,
+    }
 }
 
+#[rustfmt::skip] // a table
 fn scene_sections() -> Vec<Section> {
     vec![
         section("scene", "The whole file.", vec![
@@ -98,6 +130,7 @@ fn scene_sections() -> Vec<Section> {
     ]
 }
 
+#[rustfmt::skip] // a table
 fn pillar_sections() -> Vec<Section> {
     let facets = defaults::ROUND_FACETS;
     vec![
@@ -129,12 +162,13 @@ fn pillar_sections() -> Vec<Section> {
         section("depth", "The room of the reliefs.", vec![
             field("from", "Axis | Surface", datum(), "measured from the upright plane through the axis that faces the eye, or from the surface"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
-            field("back", "length", format!("{} mm", defaults::LAYER.back), "away from the eye"),
-            field("core", "length", format!("{} mm", defaults::LAYER.core), "what must be left of the pillar behind it"),
+            field("back", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.back, defaults::BACK_SHARE), "away from the eye"),
+            field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the pillar behind it"),
         ]),
     ]
 }
 
+#[rustfmt::skip] // a table
 fn place_sections() -> Vec<Section> {
     let centre = || field("centre", "(x, y)", "(0, 0)", "middle of the arrangement");
     vec![
@@ -175,6 +209,7 @@ fn place_sections() -> Vec<Section> {
     ]
 }
 
+#[rustfmt::skip] // a table
 fn other_sections() -> Vec<Section> {
     let (printer, output) = (defaults::PRINTER, defaults::OUTPUT);
     vec![
@@ -232,7 +267,9 @@ mod tests {
 
     /// The field names a type takes, as serde tells them to whoever asks for an unknown one.
     fn fields_of<T: DeserializeOwned>() -> Vec<&'static str> {
-        let error = crate::scene::spanned::options().from_str::<T>("(no_such_field: 0)").err();
+        let error = crate::scene::spanned::options()
+            .from_str::<T>("(no_such_field: 0)")
+            .err();
         match error.map(|e| e.code) {
             Some(Error::NoSuchStructField { expected, .. }) => expected.to_vec(),
             other => panic!("not a struct that denies unknown fields: {other:?}"),
@@ -249,7 +286,10 @@ mod tests {
             ("pillars", fields_of::<raw::RawPillars>()),
             ("Round(...)", fields_of::<raw::RawRound>()),
             ("Polygon(...)", fields_of::<raw::RawPolygon>()),
-            ("Rectangle(...) as a pillar", fields_of::<raw::RawRectangle>()),
+            (
+                "Rectangle(...) as a pillar",
+                fields_of::<raw::RawRectangle>(),
+            ),
             ("Profile(...)", fields_of::<raw::RawProfile>()),
             ("depth", fields_of::<raw::RawDepth>()),
             ("Grid(...)", fields_of::<raw::RawGrid>()),
@@ -262,8 +302,10 @@ mod tests {
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),
         ];
-        let documented: Vec<(&str, Vec<&str>)> =
-            sections().iter().map(|s| (s.title, s.fields.iter().map(|f| f.name).collect())).collect();
+        let documented: Vec<(&str, Vec<&str>)> = sections()
+            .iter()
+            .map(|s| (s.title, s.fields.iter().map(|f| f.name).collect()))
+            .collect();
         assert_eq!(documented.len(), types.len());
         for (title, fields) in types {
             let found = documented.iter().find(|(t, _)| *t == title).expect(title);

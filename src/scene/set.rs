@@ -21,9 +21,12 @@ enum Step {
 pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
     let shown = escaped(assignment);
     let wrong = |why: &str| {
-        Diagnostic::error(format!("--set \"{shown}\": {why}")).help("write it like: --set pillars[0].height=80")
+        Diagnostic::error(format!("--set \"{shown}\": {why}"))
+            .help("write it like: --set pillars[0].height=80")
     };
-    let (path, value) = assignment.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+    let (path, value) = assignment
+        .split_once('=')
+        .ok_or_else(|| wrong("there is no `=`"))?;
     let steps = steps(path).ok_or_else(|| wrong("the path is malformed"))?;
     if value.trim().is_empty() {
         return Err(wrong("there is no value after `=`"));
@@ -38,13 +41,26 @@ pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
         }
         return match step {
             Step::Field(_) => {
-                let at = tree::inner_end(inside).map(|at| start + at).ok_or_else(|| wrong("the scene has no fields there"))?;
-                insert(text, start, at, &entries, &steps[depth..], value).ok_or_else(|| wrong("a list item cannot be added"))
+                let at = tree::inner_end(inside)
+                    .map(|at| start + at)
+                    .ok_or_else(|| wrong("the scene has no fields there"))?;
+                insert(text, start, at, &entries, &steps[depth..], value)
+                    .ok_or_else(|| wrong("a list item cannot be added"))
             }
-            Step::Item(item) => Err(no_item(wrong(&format!("there is no item [{item}]")), inside, &entries, item)),
+            Step::Item(item) => Err(no_item(
+                wrong(&format!("there is no item [{item}]")),
+                inside,
+                &entries,
+                item,
+            )),
         };
     }
-    Ok(format!("{}{}{}", &text[..start], value.trim(), &text[end..]))
+    Ok(format!(
+        "{}{}{}",
+        &text[..start],
+        value.trim(),
+        &text[end..]
+    ))
 }
 
 fn steps(path: &str) -> Option<Vec<Step>> {
@@ -69,10 +85,14 @@ fn steps(path: &str) -> Option<Vec<Step>> {
 
 fn find(inside: &str, entries: &[Entry], step: &Step) -> Option<Entry> {
     let found = match step {
-        Step::Field(name) => entries.iter().find(|e| e.name.as_ref().is_some_and(|n| &inside[n.clone()] == name)),
+        Step::Field(name) => entries
+            .iter()
+            .find(|e| e.name.as_ref().is_some_and(|n| &inside[n.clone()] == name)),
         Step::Item(item) => match item.parse::<usize>() {
             Ok(index) => entries.get(index),
-            Err(_) => entries.iter().find(|e| name_of(&inside[e.value.clone()]).as_deref() == Some(item)),
+            Err(_) => entries
+                .iter()
+                .find(|e| name_of(&inside[e.value.clone()]).as_deref() == Some(item)),
         },
     };
     found.cloned()
@@ -80,24 +100,43 @@ fn find(inside: &str, entries: &[Entry], step: &Step) -> Option<Entry> {
 
 /// The text of a struct's `name` field without its quotes.
 fn name_of(value: &str) -> Option<String> {
-    let entry = tree::entries(value).into_iter().find(|e| e.name.as_ref().is_some_and(|n| &value[n.clone()] == "name"))?;
+    let entry = tree::entries(value)
+        .into_iter()
+        .find(|e| e.name.as_ref().is_some_and(|n| &value[n.clone()] == "name"))?;
     Some(value[entry.value].trim_matches('"').to_string())
 }
 
 fn no_item(problem: Diagnostic, inside: &str, entries: &[Entry], item: &str) -> Diagnostic {
-    let names: Vec<String> = entries.iter().filter_map(|e| name_of(&inside[e.value.clone()])).collect();
+    let names: Vec<String> = entries
+        .iter()
+        .filter_map(|e| name_of(&inside[e.value.clone()]))
+        .collect();
     match nearest(item, names.iter().map(String::as_str)) {
         Some(guess) => problem.help(format!("did you mean [{}]?", escaped(guess))),
-        None => problem.help(format!("the list has {} items, counted from 0", entries.len())),
+        None => problem.help(format!(
+            "the list has {} items, counted from 0",
+            entries.len()
+        )),
     }
 }
 
 /// Adds the fields that are missing, nested as the path wants it.
-fn insert(text: &str, start: usize, at: usize, entries: &[Entry], steps: &[Step], value: &str) -> Option<String> {
+fn insert(
+    text: &str,
+    start: usize,
+    at: usize,
+    entries: &[Entry],
+    steps: &[Step],
+    value: &str,
+) -> Option<String> {
     let mut added = value.trim().to_string();
     for (i, step) in steps.iter().enumerate().rev() {
         let Step::Field(name) = step else { return None };
-        added = if i == 0 { format!("{name}: {added}") } else { format!("({name}: {added})") };
+        added = if i == 0 {
+            format!("{name}: {added}")
+        } else {
+            format!("({name}: {added})")
+        };
     }
     // A comma right after the last value: a comment may follow it, so not at the bracket.
     match entries.last() {

@@ -7,14 +7,19 @@ use std::f64::consts::TAU;
 
 /// A regular polygon of `sides` corners at `radius` around the origin, the first at angle `turn` (radians), counter-clockwise.
 pub fn regular(sides: u32, radius: f64, turn: f64) -> Vec<DVec2> {
-    (0..sides).map(|i| radius * DVec2::from_angle(turn + TAU * f64::from(i) / f64::from(sides))).collect()
+    (0..sides)
+        .map(|i| radius * DVec2::from_angle(turn + TAU * f64::from(i) / f64::from(sides)))
+        .collect()
 }
 
 /// A rectangle around the origin, turned by `turn` radians, counter-clockwise.
 pub fn rectangle(width: f64, depth: f64, turn: f64) -> Vec<DVec2> {
     let half = DVec2::new(width, depth) / 2.0;
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    corners.iter().map(|&(x, y)| DVec2::from_angle(turn).rotate(DVec2::new(x, y) * half)).collect()
+    corners
+        .iter()
+        .map(|&(x, y)| DVec2::from_angle(turn).rotate(DVec2::new(x, y) * half))
+        .collect()
 }
 
 /// A polygon made fit: a repeated last point dropped, counter-clockwise.
@@ -27,16 +32,29 @@ pub fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
     }
     let n = points.len();
     if n < 3 {
-        return Err(format!("an outline needs at least 3 different points, found {n}"));
+        return Err(format!(
+            "an outline needs at least 3 different points, found {n}"
+        ));
     }
     if let Some(i) = (0..n).find(|&i| points[i].distance(points[(i + 1) % n]) < 1e-3) {
-        return Err(format!("points {} and {} of the outline are less than 0.001 mm apart", i + 1, (i + 1) % n + 1));
+        return Err(format!(
+            "points {} and {} of the outline are less than 0.001 mm apart",
+            i + 1,
+            (i + 1) % n + 1
+        ));
     }
     for i in 0..n {
         for j in i + 2..n {
             let next_door = i == 0 && j == n - 1;
-            if !next_door && segment_crossing(points[i], points[i + 1], points[j], points[(j + 1) % n]).is_some() {
-                return Err(format!("the outline crosses itself: its sides {} and {} meet", i + 1, j + 1));
+            if !next_door
+                && segment_crossing(points[i], points[i + 1], points[j], points[(j + 1) % n])
+                    .is_some()
+            {
+                return Err(format!(
+                    "the outline crosses itself: its sides {} and {} meet",
+                    i + 1,
+                    j + 1
+                ));
             }
         }
     }
@@ -79,10 +97,14 @@ fn triangles(polygon: &[DVec2]) -> Vec<[u32; 3]> {
             let corner = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
             let [a, b, c] = corner.map(at);
             orient(a, b, c) > 0.0
-                && left.iter().all(|&p| corner.contains(&p) || !inside(a, b, c, at(p)))
+                && left
+                    .iter()
+                    .all(|&p| corner.contains(&p) || !inside(a, b, c, at(p)))
         });
         // A simple polygon always has an ear; a flat corner is the only other thing that can be left over.
-        let i = ear.or_else(|| (0..n).find(|&i| is_flat(polygon, &left, i))).unwrap_or(0);
+        let i = ear
+            .or_else(|| (0..n).find(|&i| is_flat(polygon, &left, i)))
+            .unwrap_or(0);
         list.push([left[(i + n - 1) % n], left[i], left[(i + 1) % n]]);
         left.remove(i);
     }
@@ -92,7 +114,8 @@ fn triangles(polygon: &[DVec2]) -> Vec<[u32; 3]> {
 
 fn is_flat(polygon: &[DVec2], left: &[u32], i: usize) -> bool {
     let n = left.len();
-    let [a, b, c] = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]].map(|v| polygon[v as usize]);
+    let [a, b, c] =
+        [left[(i + n - 1) % n], left[i], left[(i + 1) % n]].map(|v| polygon[v as usize]);
     orient(a, b, c) == 0.0
 }
 
@@ -136,28 +159,19 @@ pub fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(a + t * ab)
 }
 
-/// Distance of the polygon's centre of area from its nearest side, and its smallest width over all directions of its sides.
+/// Smallest width of a polygon over the directions square to its sides.
 pub fn narrowest(polygon: &[DVec2]) -> f64 {
     let n = polygon.len();
     (0..n)
         .map(|i| {
             let (a, b) = (polygon[i], polygon[(i + 1) % n]);
             let across = (b - a).perp().normalize_or_zero();
-            polygon.iter().map(|p| (*p - a).dot(across)).fold(0.0, f64::max)
+            polygon
+                .iter()
+                .map(|p| (*p - a).dot(across))
+                .fold(0.0, f64::max)
         })
         .fold(f64::INFINITY, f64::min)
-}
-
-/// Centre of area of a simple polygon.
-pub fn centroid(polygon: &[DVec2]) -> DVec2 {
-    let n = polygon.len();
-    let sum: DVec2 = (0..n)
-        .map(|i| {
-            let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-            (a + b) * a.perp_dot(b)
-        })
-        .sum();
-    sum / (6.0 * polygon_area(polygon))
 }
 
 /// Distance of a point from a polygon, 0 inside.
@@ -166,5 +180,7 @@ pub fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
         return 0.0;
     }
     let n = polygon.len();
-    (0..n).map(|i| to_segment(p, polygon[i], polygon[(i + 1) % n])).fold(f64::INFINITY, f64::min)
+    (0..n)
+        .map(|i| to_segment(p, polygon[i], polygon[(i + 1) % n]))
+        .fold(f64::INFINITY, f64::min)
 }

@@ -32,14 +32,19 @@ pub enum Field<T> {
 
 /// How scenes are read: newtypes need no brackets of their own.
 pub fn options() -> ron::Options {
-    ron::Options::default().with_default_extension(Extensions::UNWRAP_NEWTYPES | Extensions::UNWRAP_VARIANT_NEWTYPES)
+    ron::Options::default()
+        .with_default_extension(Extensions::UNWRAP_NEWTYPES | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
 impl<'de, T: DeserializeOwned> Deserialize<'de> for Spanned<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = <&'de RawValue>::deserialize(deserializer)?.get_ron();
         let text = &text[lexer::trimmed(text)];
-        Ok(Self { address: text.as_ptr() as usize, length: text.len(), value: options().from_str(text) })
+        Ok(Self {
+            address: text.as_ptr() as usize,
+            length: text.len(),
+            value: options().from_str(text),
+        })
     }
 }
 

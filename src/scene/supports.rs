@@ -2,7 +2,9 @@
 
 use super::checks::{Slab, Standing};
 use super::layout::{self, Spot, positive, positive_at};
-use super::raw::{List, RawBase, RawDatum, RawDepth, RawDisc, RawPillars, RawScene, RawShape, RawSlab};
+use super::raw::{
+    List, RawBase, RawDatum, RawDepth, RawDisc, RawPillars, RawScene, RawShape, RawSlab,
+};
 use super::reader::{Reader, Span, error_at, short};
 use super::spanned::Field;
 use super::{defaults, shapes};
@@ -30,10 +32,14 @@ pub struct Supports {
 /// Reads pillars, base and depth layers.
 pub fn supports(reader: &mut Reader, raw: &RawScene, whole: &Span) -> Supports {
     let depth = match reader.given(&raw.depth) {
-        Some((depth, span)) => layer(reader, depth, &span, defaults::LAYER),
-        None => defaults::LAYER,
+        Some((depth, span)) => layer(reader, depth, &span, &Wish::default()),
+        None => Wish::default(),
     };
-    let mut found = Supports { pillars: Vec::new(), base: None, layers: Vec::new() };
+    let mut found = Supports {
+        pillars: Vec::new(),
+        base: None,
+        layers: Vec::new(),
+    };
     if let Some((list, span)) = reader.required(&raw.pillars, "pillars", "the scene", whole) {
         let entries = entries(reader, list, &span, depth);
         put_up(&entries, &mut found);
@@ -48,29 +54,37 @@ impl Supports {
         let thickness = self.base.as_ref().map_or(0.0, |b| b.thickness);
         // A pillar that only stood on the base would touch it in a face: sunk in, the two truly overlap.
         let bottom = -defaults::SINK.min(thickness / 2.0);
-        let pillars = self.pillars.into_iter().zip(self.layers).map(|(pillar, layer)| Support {
-            mesh: shapes::prism(&pillar.profile, bottom, pillar.height),
-            kind: SupportKind::Pillar {
-                axis: pillar.axis,
-                profile: pillar.profile,
-                bottom,
-                top: pillar.height,
-                round: pillar.round,
-            },
-            name: pillar.name,
-            layer: Some(layer),
-        });
+        let pillars = self
+            .pillars
+            .into_iter()
+            .zip(self.layers)
+            .map(|(pillar, layer)| Support {
+                mesh: shapes::prism(&pillar.profile, bottom, pillar.height),
+                kind: SupportKind::Pillar {
+                    axis: pillar.axis,
+                    profile: pillar.profile,
+                    bottom,
+                    top: pillar.height,
+                    round: pillar.round,
+                },
+                name: pillar.name,
+                layer: Some(layer),
+            });
         let base = self.base.into_iter().map(|slab| Support {
             name: "base".to_string(),
             mesh: shapes::prism(&slab.outline, -slab.thickness, 0.0),
-            kind: SupportKind::Base { outline: slab.outline, bottom: -slab.thickness, top: 0.0 },
+            kind: SupportKind::Base {
+                outline: slab.outline,
+                bottom: -slab.thickness,
+                top: 0.0,
+            },
             layer: None,
         });
         pillars.chain(base).collect()
     }
 }
 
-fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Layer) -> Vec<Entry> {
+fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Wish) -> Vec<Entry> {
     if list.is_empty() {
         reader.error(span, "a forest needs at least one pillar");
     }
@@ -78,11 +92,21 @@ fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Lay
     let mut total = 0u64;
     for item in list {
         let item_span = reader.span(item);
-        let Some(raw) = reader.value(item) else { continue };
-        let Some(entry) = entry(reader, raw, &item_span, depth) else { continue };
+        let Some(raw) = reader.value(item) else {
+            continue;
+        };
+        let Some(entry) = entry(reader, raw, &item_span, &depth) else {
+            continue;
+        };
         total += entry.spots.len() as u64;
         if total > defaults::MOST_PILLARS {
-            reader.error(&item_span, format!("{total} pillars up to here; the limit is {}", defaults::MOST_PILLARS));
+            reader.error(
+                &item_span,
+                format!(
+                    "{total} pillars up to here; the limit is {}",
+                    defaults::MOST_PILLARS
+                ),
+            );
             return Vec::new();
         }
         entries.push(entry);
@@ -90,25 +114,36 @@ fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Lay
     entries
 }
 
-fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: Layer) -> Option<Entry> {
+fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Option<Entry> {
     let owner = "this entry of `pillars`";
     let name = match reader.given(&raw.name) {
         Some((name, name_span)) => super::names::checked(reader, name, &name_span, "pillars"),
         None => Some("p".to_string()),
     };
-    let shape = reader.required(&raw.shape, "shape", owner, span).and_then(|(s, at)| outline(reader, s, &at));
+    let shape = reader
+        .required(&raw.shape, "shape", owner, span)
+        .and_then(|(s, at)| outline(reader, s, &at));
     let height = match &raw.height {
         Field::Missing => Some(defaults::PILLAR_HEIGHT),
         field => positive(reader, field, "height"),
     };
-    let spots = reader.required(&raw.places, "places", owner, span).and_then(|(p, at)| layout::spots(reader, p, &at));
-    let (layer, layer_span) = match reader.given(&raw.depth) {
-        Some((own, at)) => (layer(reader, own, &at, depth), at),
-        None => (depth, span.clone()),
+    let spots = reader
+        .required(&raw.places, "places", owner, span)
+        .and_then(|(p, at)| layout::spots(reader, p, &at));
+    let wish = match reader.given(&raw.depth) {
+        Some((own, at)) => layer(reader, own, &at, depth),
+        None => depth.clone(),
     };
     let (name, (profile, round), height, spots) = (name?, shape?, height?, spots?);
-    core_fits(reader, &profile, round, layer, &layer_span);
-    Some(Entry { name, profile, round, height, spots, layer })
+    let layer = settled(reader, &profile, round, &wish, span);
+    Some(Entry {
+        name,
+        profile,
+        round,
+        height,
+        spots,
+        layer,
+    })
 }
 
 /// A shape's profile around the origin and whether it stands for a circle.
@@ -119,7 +154,9 @@ fn outline(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<(Vec<DV
             let radius = positive(reader, &raw.radius, "radius");
             let facets = match &raw.facets {
                 Field::Missing => Some(defaults::ROUND_FACETS),
-                field => reader.count(field, "facets", defaults::FACETS).map(|(f, _)| f),
+                field => reader
+                    .count(field, "facets", defaults::FACETS)
+                    .map(|(f, _)| f),
             };
             Some((shapes::regular(facets?, radius?, 0.0), true))
         }
@@ -147,59 +184,124 @@ fn outline(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<(Vec<DV
     }
 }
 
-fn profile(reader: &mut Reader, list: &List<[f64; 2]>, span: &Span, turn: f64) -> Option<Vec<DVec2>> {
+fn profile(
+    reader: &mut Reader,
+    list: &List<[f64; 2]>,
+    span: &Span,
+    turn: f64,
+) -> Option<Vec<DVec2>> {
     if list.len() > defaults::MOST_POINTS {
-        reader.error(span, format!("{} points in one outline; the limit is {}", list.len(), defaults::MOST_POINTS));
+        reader.error(
+            span,
+            format!(
+                "{} points in one outline; the limit is {}",
+                list.len(),
+                defaults::MOST_POINTS
+            ),
+        );
         return None;
     }
     let mut points = Vec::new();
     for item in list {
         let at = reader.span(item);
-        let point = reader.value(item).and_then(|p| reader.point(p, "points", &at));
+        let point = reader
+            .value(item)
+            .and_then(|p| reader.point(p, "points", &at));
         points.extend(point.map(|p| DVec2::from_angle(turn).rotate(p.into())));
     }
     if points.len() < list.len() {
         return None;
     }
-    shapes::simple(points).map_err(|why| reader.error(span, why)).ok()
+    shapes::simple(points)
+        .map_err(|why| reader.error(span, why))
+        .ok()
 }
 
-/// A depth layer; fields left out are taken from `under`.
-fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: Layer) -> Layer {
-    let datum = match reader.given(&raw.from) {
-        Some((RawDatum::Axis, _)) => Datum::AxisPlane,
-        Some((RawDatum::Surface, _)) => Datum::Surface,
-        None => under.datum,
+/// A depth layer as far as the scene gives it, millimetres.
+#[derive(Clone, Default)]
+struct Wish {
+    /// Where the scene asks for it.
+    span: Option<Span>,
+    datum: Option<Datum>,
+    front: Option<f64>,
+    back: Option<f64>,
+    core: Option<f64>,
+}
+
+/// What `raw` asks for; fields left out are taken from `under`.
+fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> Wish {
+    let datum = reader.given(&raw.from).map(|(from, _)| match from {
+        RawDatum::Axis => Datum::AxisPlane,
+        RawDatum::Surface => Datum::Surface,
+    });
+    let mut length = |field, name, under| {
+        reader
+            .length_from(field, name, 0.0)
+            .map(|(value, _)| value)
+            .or(under)
     };
-    let mut length = |field, name, default| reader.length_from(field, name, 0.0).map_or(default, |(value, _)| value);
     let front = length(&raw.front, "front", under.front);
     let back = length(&raw.back, "back", under.back);
     let core = length(&raw.core, "core", under.core);
-    if front + back < 0.05 {
-        let total = short(front + back);
+    if let (Some(front), Some(back)) = (front, back)
+        && front + back < 0.05
+    {
         reader.problems.push(
-            error_at(span, format!("the depth layer is {total} mm thick (front + back): no relief fits in"))
-                .help("a few millimetres are usual: (front: 5, back: 2)"),
+            error_at(
+                span,
+                format!(
+                    "the depth layer is {} mm thick (front + back): no relief fits in",
+                    short(front + back)
+                ),
+            )
+            .help("a few millimetres are usual: (front: 5, back: 2)"),
         );
     }
-    Layer { datum, front, back, core }
+    Wish {
+        span: Some(span.clone()),
+        datum: datum.or(under.datum),
+        front,
+        back,
+        core,
+    }
 }
 
-/// The layer must leave the pillar standing.
-fn core_fits(reader: &mut Reader, profile: &[DVec2], round: bool, layer: Layer, span: &Span) {
+/// The layer of a pillar: defaults filled in; an error if it does not leave the pillar standing. `entry` is the pillars' place.
+fn settled(
+    reader: &mut Reader,
+    profile: &[DVec2],
+    round: bool,
+    wish: &Wish,
+    entry: &Span,
+) -> Layer {
+    let span = wish.span.as_ref().unwrap_or(entry);
     let reach = profile.iter().map(|p| p.length()).fold(0.0, f64::max);
     let width = shapes::narrowest(profile);
-    let (room, of) = match (layer.datum, round) {
+    let datum = wish.datum.unwrap_or(defaults::LAYER.datum);
+    let (room, of) = match (datum, round) {
         (Datum::AxisPlane, true) => (reach, "the radius"),
         (Datum::AxisPlane, false) => (width / 2.0, "half the width"),
         (Datum::Surface, _) => (width, "the width"),
     };
-    if layer.back + layer.core > room + 1e-6 {
-        let (back, core) = (short(layer.back), short(layer.core));
+    let front = wish.front.unwrap_or(defaults::LAYER.front);
+    let core = wish
+        .core
+        .unwrap_or(defaults::LAYER.core.min(defaults::CORE_SHARE * room));
+    let back = wish
+        .back
+        .unwrap_or(defaults::LAYER.back.min(defaults::BACK_SHARE * room));
+    if back + core > room + 1e-6 {
+        let (back, core) = (short(back), short(core));
         reader.problems.push(
             error_at(span, format!("reliefs would cut the pillar through: back {back} mm + core {core} mm is more than {of}, {} mm", short(room)))
                 .help(format!("thicker pillars, or a smaller `back` or `core` in `depth`: back + core <= {}", short(room))),
         );
+    }
+    Layer {
+        datum,
+        front,
+        back,
+        core,
     }
 }
 
@@ -234,20 +336,33 @@ fn base(reader: &mut Reader, field: &Field<RawBase>, pillars: &[Standing]) -> Op
         Some((RawBase::Rectangle(raw), span)) => rectangle(reader, raw, span, pillars),
         Some((RawBase::None, span)) => {
             if pillars.len() > 1 {
-                reader.problems.push(
-                    super::reader::warning_at(&span, format!("without a base the {} pillars are loose parts", pillars.len())),
-                );
+                reader.problems.push(super::reader::warning_at(
+                    &span,
+                    format!(
+                        "without a base the {} pillars are loose parts",
+                        pillars.len()
+                    ),
+                ));
             }
             None
         }
     }
 }
 
-fn disc(reader: &mut Reader, raw: &RawDisc, span: Option<Span>, pillars: &[Standing]) -> Option<Slab> {
+fn disc(
+    reader: &mut Reader,
+    raw: &RawDisc,
+    span: Option<Span>,
+    pillars: &[Standing],
+) -> Option<Slab> {
     let thickness = thickness(reader, &raw.thickness);
     let margin = margin(reader, &raw.margin);
-    let centre = reader.point_field(&raw.centre, "centre").map(|(p, _)| DVec2::from(p));
-    let centre = centre.or_else(|| bounds(pillars).map(|(lo, hi)| (lo + hi) / 2.0)).unwrap_or(DVec2::ZERO);
+    let centre = reader
+        .point_field(&raw.centre, "centre")
+        .map(|(p, _)| DVec2::from(p));
+    let centre = centre
+        .or_else(|| bounds(pillars).map(|(lo, hi)| (lo + hi) / 2.0))
+        .unwrap_or(DVec2::ZERO);
     let facets = match &raw.facets {
         Field::Missing => defaults::BASE_FACETS,
         field => reader.count(field, "facets", defaults::FACETS)?.0,
@@ -261,23 +376,42 @@ fn disc(reader: &mut Reader, raw: &RawDisc, span: Option<Span>, pillars: &[Stand
         }
         field => positive(reader, field, "radius")?,
     };
-    let outline = shapes::regular(facets, radius, 0.0).into_iter().map(|p| p + centre).collect();
-    Some(Slab { outline, thickness: thickness?, span })
+    let outline = shapes::regular(facets, radius, 0.0)
+        .into_iter()
+        .map(|p| p + centre)
+        .collect();
+    Some(Slab {
+        outline,
+        thickness: thickness?,
+        span,
+    })
 }
 
 fn rectangle(reader: &mut Reader, raw: &RawSlab, span: Span, pillars: &[Standing]) -> Option<Slab> {
     let thickness = thickness(reader, &raw.thickness);
     let margin = margin(reader, &raw.margin);
     let (lo, hi) = bounds(pillars).unwrap_or((DVec2::ZERO, DVec2::ZERO));
-    let centre = reader.point_field(&raw.centre, "centre").map_or((lo + hi) / 2.0, |(p, _)| p.into());
+    let centre = reader
+        .point_field(&raw.centre, "centre")
+        .map_or((lo + hi) / 2.0, |(p, _)| p.into());
     let reach = (hi - centre).max(centre - lo);
     let mut side = |field: &Field<f64>, name: &str, half: f64| match field {
         Field::Missing => margin.map(|m| 2.0 * (half + m)),
         field => positive_at(reader, field, name).map(|(v, _)| v),
     };
-    let (width, depth) = (side(&raw.width, "width", reach.x), side(&raw.depth, "depth", reach.y));
-    let outline = shapes::rectangle(width?, depth?, 0.0).into_iter().map(|p| p + centre).collect();
-    Some(Slab { outline, thickness: thickness?, span: Some(span) })
+    let (width, depth) = (
+        side(&raw.width, "width", reach.x),
+        side(&raw.depth, "depth", reach.y),
+    );
+    let outline = shapes::rectangle(width?, depth?, 0.0)
+        .into_iter()
+        .map(|p| p + centre)
+        .collect();
+    Some(Slab {
+        outline,
+        thickness: thickness?,
+        span: Some(span),
+    })
 }
 
 fn thickness(reader: &mut Reader, field: &Field<f64>) -> Option<f64> {
@@ -296,5 +430,7 @@ fn margin(reader: &mut Reader, field: &Field<f64>) -> Option<f64> {
 
 fn bounds(pillars: &[Standing]) -> Option<(DVec2, DVec2)> {
     let points = pillars.iter().flat_map(|p| &p.profile);
-    points.fold(None, |b: Option<(DVec2, DVec2)>, p| Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p)))))
+    points.fold(None, |b: Option<(DVec2, DVec2)>, p| {
+        Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p))))
+    })
 }

@@ -14,7 +14,9 @@ pub struct Entry {
 /// The direct entries of the first bracketed value of `text`; none if it is not bracketed.
 pub fn entries(text: &str) -> Vec<Entry> {
     let tokens = skip_attribute(text);
-    let Some(open) = tokens.iter().position(|t| matches!(t.kind, Kind::Open(_))) else { return Vec::new() };
+    let Some(open) = tokens.iter().position(|t| matches!(t.kind, Kind::Open(_))) else {
+        return Vec::new();
+    };
     let mut list = Vec::new();
     let mut depth = 0usize;
     let mut first = open + 1;
@@ -57,18 +59,57 @@ pub fn inner_end(text: &str) -> Option<usize> {
     None
 }
 
+/// The text with the field whose name starts at byte `name` overwritten by spaces, comma included: same length, same offsets.
+pub fn without_field(text: &str, name: usize) -> String {
+    let tokens = lexer::tokens(text).unwrap_or_default();
+    let mut depth = 0usize;
+    let mut end = name;
+    for token in tokens.iter().filter(|t| t.span.start >= name) {
+        match token.kind {
+            Kind::Open(_) => depth += 1,
+            Kind::Close(_) if depth == 0 => break,
+            Kind::Close(_) => depth -= 1,
+            _ => {}
+        }
+        end = token.span.end;
+        if depth == 0 && token.kind == Kind::Mark(b',') {
+            break;
+        }
+    }
+    format!(
+        "{}{}{}",
+        &text[..name],
+        " ".repeat(end - name),
+        &text[end..]
+    )
+}
+
 fn entry(tokens: &[Token]) -> Option<Entry> {
     let (first, last) = (tokens.first()?, tokens.last()?);
-    let named = first.kind == Kind::Word && tokens.get(1).is_some_and(|t| t.kind == Kind::Mark(b':'));
-    let value = if named { tokens.get(2)?.span.start } else { first.span.start };
-    Some(Entry { name: named.then(|| first.span.clone()), value: value..last.span.end })
+    let named =
+        first.kind == Kind::Word && tokens.get(1).is_some_and(|t| t.kind == Kind::Mark(b':'));
+    let value = if named {
+        tokens.get(2)?.span.start
+    } else {
+        first.span.start
+    };
+    Some(Entry {
+        name: named.then(|| first.span.clone()),
+        value: value..last.span.end,
+    })
 }
 
 /// Tokens of the text after `#![...]` lines.
 fn skip_attribute(text: &str) -> Vec<Token> {
     let mut tokens = lexer::tokens(text).unwrap_or_default();
-    while tokens.first().is_some_and(|t| text[t.span.clone()].starts_with('#')) {
-        let end = tokens.iter().position(|t| t.kind == Kind::Close(b']')).map_or(tokens.len(), |i| i + 1);
+    while tokens
+        .first()
+        .is_some_and(|t| text[t.span.clone()].starts_with('#'))
+    {
+        let end = tokens
+            .iter()
+            .position(|t| t.kind == Kind::Close(b']'))
+            .map_or(tokens.len(), |i| i + 1);
         tokens.drain(..end);
     }
     tokens

@@ -7,3 +7,5 @@ mod hostile;
 mod meshes;
 mod render;
 mod shapes;
+mod cli;
+mod scene;
