@@ -1,11 +1,13 @@
 //! Integration tests, one module a subject.
 
+mod architecture;
+mod cli;
 mod diagram;
 mod formats;
 mod golden;
 mod hostile;
 mod meshes;
+mod numerics;
 mod render;
-mod shapes;
-mod cli;
 mod scene;
+mod shapes;
