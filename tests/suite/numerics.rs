@@ -262,7 +262,10 @@ fn every_ray_meets_what_its_cell_says() {
 
 #[test]
 fn a_ball_hides_the_ball_behind_it() {
-    let (front, behind) = (ball(MIDDLE, 8.0, 24), ball(MIDDLE + 30.0 * DVec3::Y, 8.0, 24));
+    let (front, behind) = (
+        ball(MIDDLE, 8.0, 24),
+        ball(MIDDLE + 30.0 * DVec3::Y, 8.0, 24),
+    );
     let supports = vec![pillar(DVec2::ZERO, 30.0, 64, Datum::AxisPlane)];
     let alone = seen_sr(&Setting::new(front.clone(), supports.clone()).seen().1);
     let mut both = front.clone();
@@ -296,14 +299,14 @@ fn a_wide_pillar_covers_everything_and_a_thin_one_its_share() {
 fn without_binding_bounds_the_model_itself_is_the_optimum() {
     for energy in [NORMAL, CURVATURE] {
         let outcome = Setting::roomy().solved(energy);
+        // The solver stops at an objective of 1e-8 in units of the layer's log width, 1.6 here; the spread is its root.
         assert!(
-            outcome.spread() < 1e-6,
+            outcome.spread() < 1e-3,
             "{energy:?}: {:e}",
             outcome.spread()
         );
-        assert!(outcome.depths.solved.objective.abs() < 1e-9);
-        // The scale that is left is the layer's: the model scaled about the eye until it touches the far bound.
-        assert!(outcome.relief.clamp_mm < 1e-6);
+        assert!(outcome.depths.solved.objective.abs() < 1e-8);
+        assert_eq!(outcome.relief.clamp_mm, 0.0);
     }
 }
 
@@ -337,8 +340,8 @@ fn every_group_touches_its_far_bound_and_oversteps_none() {
 fn dividing_by_mu_lands_inside_the_bounds_and_multiplying_does_not() {
     let normal = Setting::tight().solved(NORMAL);
     let (divided, multiplied) = (normal.excess(|s, mu| s / mu), normal.excess(|s, mu| s * mu));
-    // Within faces the rows are linear: a few hundredths of the layer may be left for the clamp.
-    assert!(divided < 0.03, "{divided} of the layer");
+    // Within faces the rows are linear: a little may be left for the clamp.
+    assert!(divided < 1e-3, "{divided} of the layer");
     assert!(multiplied > 1.0, "{multiplied} of the layer");
     let curvature = Setting::tight().solved(CURVATURE);
     assert!(curvature.excess(|s, mu| s / mu) < 0.03);
@@ -355,7 +358,8 @@ fn bounds_at_vertices_hold_exactly() {
             .iter()
             .filter(|b| at_vertex(&b.anchor.weights))
         {
-            let s = b.anchor.relative_depth(&outcome.depths.s) / outcome.depths.mu[b.group as usize];
+            let s =
+                b.anchor.relative_depth(&outcome.depths.s) / outcome.depths.mu[b.group as usize];
             let slack = 1e-5 * (b.upper - b.lower);
             assert!(
                 s > b.lower - slack && s < b.upper + slack,
@@ -384,7 +388,7 @@ fn reliefs_lie_inside_their_layers() {
             corners += 1;
         }
     }
-    assert!(corners > 3000);
+    assert!(corners > 1500, "{corners}");
 }
 
 #[test]
@@ -410,7 +414,8 @@ fn rotation_scale_and_translation_of_everything_change_nothing() {
     let turned = DMat4::from_rotation_z(0.7);
     let larger = DMat4::from_scale(DVec3::splat(2.0));
     let shifted = DMat4::from_translation(DVec3::new(31.0, -17.0, 5.0));
-    for energy in [NORMAL, CURVATURE] {
+    // Relative depths, of which the layer is 0.02, and the objective. The curvature energy is hardly felt by long waves.
+    for (energy, tolerances) in [(NORMAL, [2e-6, 1e-6]), (CURVATURE, [5e-5, 1e-4])] {
         let setting = Setting::tight();
         let before = setting.solved(energy);
         for (by, scale) in [(turned, 1.0), (larger, 2.0), (shifted, 1.0)] {
@@ -424,7 +429,9 @@ fn rotation_scale_and_translation_of_everything_change_nothing() {
                 before.depths.solved.objective,
                 after.depths.solved.objective,
             );
-            eprintln!("{energy:?} {scale} change {change:e} objective {:e} cells {} {}", a/b-1.0, before.map.cells.len(), after.map.cells.len());
+            let [in_depth, in_energy] = tolerances;
+            assert!(change < in_depth, "{energy:?} {by}: {change:e}");
+            assert!((a / b - 1.0).abs() < in_energy, "{energy:?} {by}: {a} {b}");
         }
     }
 }
@@ -452,20 +459,25 @@ fn a_smaller_hidden_weight_serves_what_is_seen() {
 }
 
 impl Outcome {
-    /// Whether the eye sees a vertex itself.
+    /// Whether the eye sees at least half, by solid angle, of the faces around a vertex that are turned to it.
     fn vertices_in_sight(&self) -> Vec<bool> {
-        let mut seen = vec![false; self.target.mesh.vertices.len()];
-        for cell in &self.map.cells {
-            let Some(face) = cell.face else { continue };
-            for p in cell.corners {
-                let q = self.map.points[p as usize];
-                let (anchor, _) = anchor(&self.target, face as usize, q);
-                if let Some(k) = anchor.weights.iter().position(|w| *w == 1.0) {
-                    seen[anchor.vertices[k] as usize] = true;
-                }
+        let (mesh, map) = (&self.target.mesh, &self.map);
+        let mut shares = vec![0.0; mesh.vertices.len()];
+        let mut add = |face: usize, share: f64| {
+            mesh.faces[face]
+                .iter()
+                .for_each(|v| shares[*v as usize] += share);
+        };
+        for (c, cell) in map.cells.iter().enumerate() {
+            if let Some(face) = cell.face {
+                add(face as usize, 2.0 * map.solid_angle(c));
             }
         }
-        seen
+        for face in 0..mesh.faces.len() {
+            let [a, b, c] = mesh.corners(face).map(|p| p - map.plane.eye);
+            add(face, -solid_angle(a, b, c).max(0.0));
+        }
+        shares.iter().map(|s| *s > 0.0).collect()
     }
 }
 
@@ -509,7 +521,12 @@ fn areas_sum_up_and_cotangents_know_plane_and_sphere() {
             laplacian[j] -= step;
         }
     }
-    for (i, v) in mesh.vertices.iter().enumerate().filter(|(_, v)| v.z.abs() < 6.0) {
+    for (i, v) in mesh
+        .vertices
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| v.z.abs() < 6.0)
+    {
         assert_near(laplacian[i].dot(v.normalize()) / areas[i], -2.0 / 7.0, 0.02);
     }
 }
@@ -525,7 +542,9 @@ fn the_energy_of_a_linear_function_is_its_slope_squared_times_the_area() {
         let energy: f64 = (0..3)
             .map(|k| geometry.cotangents[f][k] / 2.0 * difference(k).powi(2))
             .sum();
-        let along = slope.reject_from_normalized(mesh.normal(f)).length_squared();
+        let along = slope
+            .reject_from_normalized(mesh.normal(f))
+            .length_squared();
         assert_near(energy, along * geometry.areas[f], 1e-4);
     }
 }
