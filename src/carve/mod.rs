@@ -155,7 +155,8 @@ fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result
     for (v, view) in views.iter().enumerate() {
         let cells = cells_on(view, s);
         let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else { continue };
-        let made = block(view.map, &cells, &view.relief.depth, |q| slab.plane(view.map.plane.direction(q), slab.backing()));
+        let back = |q| slab.plane(view.map.plane.direction(q), slab.backing());
+        let made = block(view.map, &cells, &view.relief.depth, back, |c, k| hidden(view.map, c, k));
         repairs.filled += made.filled;
         repairs.dropped_cells += made.dropped;
         let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
@@ -187,6 +188,13 @@ fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result
         bare: sound(&bare, &name("carved"))?,
         repairs,
     })
+}
+
+/// Whether a nearer support hides what lies beyond side `k` of a cell.
+fn hidden(map: &ViewMap, c: u32, k: usize) -> bool {
+    let Some(n) = map.neighbours[c as usize][k] else { return false };
+    let (here, there) = (&map.cells[c as usize], &map.cells[n as usize]);
+    here.support != there.support && there.support_depth < here.support_depth
 }
 
 fn cells_on(view: &ViewRelief, support: u32) -> Vec<u32> {

@@ -1,111 +1,135 @@
 //! Small repairs that make a nearly sound surface sound in f32.
 //!
 //! Boolean operations are right in f64 but leave slivers thinner than an f32 step; rounded, some of them cut their
-//! neighbours. Takes a closed mesh; gives it rounded to f32 with the faces in trouble collapsed along short edges or
-//! flipped. Promises not to open it and to move nothing by more than [`REACH_MM`] a step; does *not* promise success:
-//! `Solid::new` decides.
+//! neighbours. Takes a closed mesh; gives it rounded to f32 with slivers dissolved: needles lose their short edge, caps give
+//! their area to the face across their long edge. Promises not to open it and to move nothing by more than the last of
+//! [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
 
 use crate::mesh::TriMesh;
 use crate::mesh::intersect::self_intersections;
 use crate::mesh::weld::{drop_collapsed, drop_unreferenced, snap_to_f32};
 use glam::DVec3;
+use std::collections::VecDeque;
 
-/// The longest edge that may be collapsed: a twentieth of a printed line, so that no repair is ever seen.
-const REACH_MM: f64 = 0.02;
-/// Repairs that need more rounds than this do not converge.
-const MAX_ROUNDS: usize = 12;
+/// Faces lower than this are dissolved, in turn until nothing is in trouble: from two f32 steps at 100 mm up to a fiftieth of
+/// what any printer resolves. Larger heights mend more and change more.
+const HEIGHTS_MM: [f64; 7] = [2e-5, 6e-5, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
+/// A side up to this many heights long is collapsed where flipping is not possible.
+const LAST_RESORT: f64 = 30.0;
 /// More pairs than this are no slivers but a real overlap, which is not for mending.
-const MAX_PAIRS: usize = 4000;
+const MAX_PAIRS: usize = 20_000;
 
 /// Rounds to f32 and mends what that broke.
 pub fn mend(mesh: &TriMesh) -> TriMesh {
     let mut mesh = snap_to_f32(mesh).mesh;
     let mut best: Option<(usize, TriMesh)> = None;
-    for round in 0..MAX_ROUNDS {
-        let pairs = self_intersections(&mesh, MAX_PAIRS);
-        let flat: Vec<u32> = flat_faces(&mesh).collect();
-        let trouble = pairs.len() + flat.len();
-        if best.as_ref().is_none_or(|b| trouble < b.0) {
-            best = Some((trouble, mesh.clone()));
+    for height in HEIGHTS_MM {
+        let everywhere = height == HEIGHTS_MM[0];
+        let trouble = if everywhere { (0..mesh.faces.len() as u32).collect() } else { trouble(&mesh) };
+        if trouble.is_empty() {
+            return mesh;
         }
-        if trouble == 0 || pairs.len() >= MAX_PAIRS {
-            break;
+        if !everywhere && best.as_ref().is_none_or(|b| trouble.len() < b.0) {
+            best = Some((trouble.len(), mesh.clone()));
         }
-        let reach = REACH_MM * (0.25 + 0.25 * round.min(3) as f64);
-        if !treat_all(&mut mesh, &pairs, flat, reach) {
-            break;
-        }
+        dissolve(&mut mesh, trouble, height);
     }
-    best.map_or(mesh, |b| b.1)
+    match best {
+        Some((count, better)) if count < trouble(&mesh).len() => better,
+        _ => mesh,
+    }
 }
 
-/// Treats the thinner face of every pair (the cause; the stout one is only in its way) and the flat ones, thinnest first.
-fn treat_all(mesh: &mut TriMesh, pairs: &[[u32; 2]], flat: Vec<u32>, reach: f64) -> bool {
-    let mut surgery = Surgery::new(mesh);
-    let thinner = |p: &[u32; 2]| if surgery.height(p[0]) <= surgery.height(p[1]) { p[0] } else { p[1] };
-    let mut faces: Vec<u32> = pairs.iter().map(thinner).chain(flat).collect();
+/// Faces that cut others, their neighbourhoods and faces without area, rising.
+fn trouble(mesh: &TriMesh) -> Vec<u32> {
+    let flat = (0..mesh.faces.len() as u32).filter(|f| mesh.area_vector(*f as usize) == DVec3::ZERO);
+    let mut faces: Vec<u32> = self_intersections(mesh, MAX_PAIRS).into_iter().flatten().chain(flat).collect();
     faces.sort_unstable();
     faces.dedup();
-    faces.sort_by(|a, b| surgery.height(*a).total_cmp(&surgery.height(*b)));
-    let changed = faces.iter().filter(|f| surgery.treat(**f, reach)).count();
-    drop_collapsed(mesh);
-    drop_unreferenced(mesh);
-    changed > 0
+    faces
 }
 
-/// Faces whose corners lie on one line.
-fn flat_faces(mesh: &TriMesh) -> impl Iterator<Item = u32> {
-    (0..mesh.faces.len() as u32).filter(|f| mesh.area_vector(*f as usize) == DVec3::ZERO)
+/// Dissolves slivers lower than `height` among `faces` and their neighbours.
+fn dissolve(mesh: &mut TriMesh, faces: Vec<u32>, height: f64) {
+    let mut surgery = Surgery::new(mesh, faces, height);
+    surgery.run();
+    drop_collapsed(mesh);
+    drop_unreferenced(mesh);
 }
 
 /// Local changes on a closed mesh; dead faces become `[v, v, v]`.
 struct Surgery<'a> {
     mesh: &'a mut TriMesh,
     around: Vec<Vec<u32>>,
-    /// Faces changed in this round are left alone until the next look.
-    touched: Vec<bool>,
+    queue: VecDeque<u32>,
+    height: f64,
 }
 
 impl<'a> Surgery<'a> {
-    fn new(mesh: &'a mut TriMesh) -> Self {
+    /// Starts with `faces` and all faces that share a vertex with them.
+    fn new(mesh: &'a mut TriMesh, faces: Vec<u32>, height: f64) -> Self {
         let mut around = vec![Vec::new(); mesh.vertices.len()];
         for (f, face) in mesh.faces.iter().enumerate() {
             face.iter().for_each(|v| around[*v as usize].push(f as u32));
         }
-        let touched = vec![false; mesh.faces.len()];
-        Self { mesh, around, touched }
+        let mut start: Vec<u32> = if faces.len() == mesh.faces.len() {
+            faces
+        } else {
+            faces.iter().flat_map(|f| mesh.faces[*f as usize]).flat_map(|v| around[v as usize].iter().copied()).collect()
+        };
+        start.sort_unstable();
+        start.dedup();
+        Self { mesh, around, queue: start.into(), height }
     }
 
-    fn edge(&self, f: u32, k: usize) -> f64 {
-        let corners = self.mesh.corners(f as usize);
-        corners[k].distance(corners[(k + 1) % 3])
-    }
-
-    fn longest(&self, f: u32) -> usize {
-        (0..3).max_by(|a, b| self.edge(f, *a).total_cmp(&self.edge(f, *b))).unwrap_or(0)
-    }
-
-    fn height(&self, f: u32) -> f64 {
-        self.mesh.area_vector(f as usize).length() / self.edge(f, self.longest(f)).max(f64::MIN_POSITIVE)
-    }
-
-    /// Collapses the shortest edge that allows it, or flips the longest.
-    fn treat(&mut self, f: u32, reach: f64) -> bool {
-        if self.touched[f as usize] {
-            return false;
-        }
-        let mut sides = [0, 1, 2];
-        sides.sort_by(|a, b| self.edge(f, *a).total_cmp(&self.edge(f, *b)));
-        for k in sides {
-            if self.edge(f, k) > reach {
-                break;
+    fn run(&mut self) {
+        // Collapses end by themselves and flips always raise the lower of two faces; the budget bounds the rest.
+        let mut budget = 10 * self.queue.len() + 1000;
+        while let Some(f) = self.queue.pop_front() {
+            let [a, b, _] = self.mesh.faces[f as usize];
+            if a == b || self.height_of(self.mesh.faces[f as usize]) >= self.height {
+                continue;
             }
-            let (a, b) = (self.mesh.faces[f as usize][k], self.mesh.faces[f as usize][(k + 1) % 3]);
+            if budget == 0 {
+                return;
+            }
+            budget -= 1;
+            let _ = self.collapse_sides(f, 2.0) || self.flip(f) || self.collapse_sides(f, LAST_RESORT);
+        }
+    }
+
+    fn at(&self, v: u32) -> DVec3 {
+        self.mesh.vertices[v as usize]
+    }
+
+    fn side(&self, face: [u32; 3], k: usize) -> f64 {
+        self.at(face[k]).distance(self.at(face[(k + 1) % 3]))
+    }
+
+    fn area_vector(&self, [a, b, c]: [u32; 3]) -> DVec3 {
+        (self.at(b) - self.at(a)).cross(self.at(c) - self.at(a))
+    }
+
+    fn height_of(&self, face: [u32; 3]) -> f64 {
+        let longest = (0..3).map(|k| self.side(face, k)).fold(0.0, f64::max);
+        if longest == 0.0 { 0.0 } else { self.area_vector(face).length() / longest }
+    }
+
+    /// Collapses the shortest side, up to `times` the height, that allows it.
+    fn collapse_sides(&mut self, f: u32, times: f64) -> bool {
+        let face = self.mesh.faces[f as usize];
+        let mut sides = [0, 1, 2];
+        sides.sort_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b)));
+        for k in sides {
+            if self.side(face, k) > times * self.height {
+                return false;
+            }
+            let (a, b) = (face[k], face[(k + 1) % 3]);
             if self.collapse(a, b) || self.collapse(b, a) {
                 return true;
             }
         }
-        self.height(f) < reach && self.flip(f, self.longest(f))
+        false
     }
 
     fn ring(&self, v: u32) -> Vec<u32> {
@@ -115,61 +139,65 @@ impl<'a> Surgery<'a> {
         ring
     }
 
-    /// Moves `from` onto `to` if the surface stays a closed manifold and no sizeable face turns over.
+    /// Moves `from` onto `to` if the surface stays a closed manifold and no face that is not a sliver turns over.
     fn collapse(&mut self, from: u32, to: u32) -> bool {
         let (ring, other) = (self.ring(from), self.ring(to));
         let common = ring.iter().filter(|v| other.binary_search(v).is_ok()).count();
-        let shared = self.around[from as usize].iter().filter(|f| self.mesh.faces[**f as usize].contains(&to)).count();
-        if common != 2 || shared != 2 {
-            return false;
-        }
         let faces = self.around[from as usize].clone();
-        let stay: Vec<u32> = faces.iter().copied().filter(|f| !self.mesh.faces[*f as usize].contains(&to)).collect();
-        let target = self.mesh.vertices[to as usize];
-        let turns = |f: &u32| {
-            let before = self.mesh.area_vector(*f as usize);
-            let [a, b, c] = self.mesh.faces[*f as usize].map(|v| if v == from { target } else { self.mesh.vertices[v as usize] });
-            let after = (b - a).cross(c - a);
-            after == DVec3::ZERO || (self.height(*f) > 1e-3 && before.dot(after) < 0.0)
-        };
-        if faces.iter().any(|f| self.touched[*f as usize]) || stay.iter().any(turns) {
+        let (dying, staying): (Vec<u32>, Vec<u32>) = faces.iter().partition(|f| self.mesh.faces[**f as usize].contains(&to));
+        if common != 2 || dying.len() != 2 {
             return false;
         }
-        for f in &faces {
-            self.touched[*f as usize] = true;
-            let face = &mut self.mesh.faces[*f as usize];
-            if face.contains(&to) {
-                let gone = *face;
-                *face = [to; 3];
-                gone.iter().for_each(|v| self.around[*v as usize].retain(|x| x != f));
-            } else {
-                face.iter_mut().filter(|v| **v == from).for_each(|v| *v = to);
-                self.around[to as usize].push(*f);
-            }
+        let moved = |face: [u32; 3]| face.map(|v| if v == from { to } else { v });
+        let turns = |f: &u32| {
+            let face = self.mesh.faces[*f as usize];
+            let (before, after) = (self.area_vector(face), self.area_vector(moved(face)));
+            self.height_of(face) > self.height && before.dot(after) <= 0.5 * before.length() * after.length()
+        };
+        if staying.iter().any(turns) {
+            return false;
+        }
+        for f in dying {
+            let gone = self.mesh.faces[f as usize];
+            self.mesh.faces[f as usize] = [to; 3];
+            gone.iter().for_each(|v| self.around[*v as usize].retain(|x| *x != f));
+        }
+        for f in staying {
+            self.mesh.faces[f as usize] = moved(self.mesh.faces[f as usize]);
+            self.around[to as usize].push(f);
+            self.queue.push_back(f);
         }
         self.around[from as usize].clear();
         true
     }
 
-    /// Swaps the diagonal of the two faces at side `k`, if the new edge does not exist yet.
-    fn flip(&mut self, f: u32, k: usize) -> bool {
+    /// Swaps the longest side of a cap for the other diagonal, if that raises the lower of the two faces and folds nothing.
+    fn flip(&mut self, f: u32) -> bool {
         let face = self.mesh.faces[f as usize];
+        let k = (0..3).max_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b))).unwrap_or(0);
         let (a, b, v) = (face[k], face[(k + 1) % 3], face[(k + 2) % 3]);
         let others: Vec<u32> =
             self.around[a as usize].iter().copied().filter(|x| *x != f && self.mesh.faces[*x as usize].contains(&b)).collect();
         let [other] = others[..] else { return false };
-        let Some(d) = self.mesh.faces[other as usize].into_iter().find(|x| *x != a && *x != b) else { return false };
-        if d == v || self.touched[other as usize] || self.ring(v).binary_search(&d).is_ok() {
+        let across = self.mesh.faces[other as usize];
+        let Some(d) = across.into_iter().find(|x| *x != a && *x != b) else { return false };
+        if d == v || self.ring(v).binary_search(&d).is_ok() {
             return false;
         }
-        self.mesh.faces[f as usize] = [a, d, v];
-        self.mesh.faces[other as usize] = [d, b, v];
+        let (first, second) = ([a, d, v], [d, b, v]);
+        let lower = self.height_of(first).min(self.height_of(second));
+        let normal = self.area_vector(across);
+        let folds = |face| self.area_vector(face).dot(normal) < 0.0 && self.height_of(across) > self.height;
+        if lower <= self.height_of(face).min(self.height_of(across)) || folds(first) || folds(second) {
+            return false;
+        }
+        self.mesh.faces[f as usize] = first;
+        self.mesh.faces[other as usize] = second;
         self.around[b as usize].retain(|x| *x != f);
         self.around[a as usize].retain(|x| *x != other);
         self.around[d as usize].push(f);
         self.around[v as usize].push(other);
-        self.touched[f as usize] = true;
-        self.touched[other as usize] = true;
+        self.queue.extend([f, other]);
         true
     }
 }

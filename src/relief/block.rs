@@ -10,12 +10,18 @@ use crate::geom::orient;
 use crate::mesh::TriMesh;
 use crate::viewmap::ViewMap;
 use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// Depths nearer than this at one point are one level, millimetres. Rounding leaves 1e-9, f32 files resolve 8e-6; steps
 /// below a printer's reach but above this are kept because they are parts of steps that grow along a line.
 const LEVEL_MM: f64 = 0.003;
 /// How far a touching corner is pulled in, millimetres: five times the thinnest cell of a tidy view map.
 const PULL_MM: f64 = 0.01;
+
+/// How far a relief goes on behind the outline of a nearer support, millimetres: reliefs of neighbouring pillars whose depths
+/// overlap would touch in a wall along the rays there; so they truly overlap, unseen. Below 0.01 mending could not tell overlap
+/// from contact.
+const LAP_MM: f64 = 0.04;
 
 /// A closed, outward oriented solid and what was changed to make it one.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +34,14 @@ pub struct Block {
 }
 
 /// The solid over `cells` (rising indices) with corner depths `depth` (index: cell of the map) and a back at `back(q)`.
-pub fn block(map: &ViewMap, cells: &[u32], depth: &[Option<[f64; 3]>], back: impl Fn(DVec2) -> f64) -> Block {
+/// `hidden(cell, side)` tells whether the support of the cell goes on behind that side, hidden by a nearer one.
+pub fn block(
+    map: &ViewMap,
+    cells: &[u32],
+    depth: &[Option<[f64; 3]>],
+    back: impl Fn(DVec2) -> f64,
+    hidden: impl Fn(u32, usize) -> bool,
+) -> Block {
     let mut kept: Vec<u32> = cells.iter().copied().filter(|c| depth[*c as usize].is_some()).collect();
     let total = kept.len();
     loop {
@@ -36,6 +49,7 @@ pub fn block(map: &ViewMap, cells: &[u32], depth: &[Option<[f64; 3]>], back: imp
         let stuck = field.pull_apart(map, PULL_MM);
         if stuck.is_empty() {
             let filled = field.settle();
+            field.lap(&hidden);
             return Block { mesh: field.solid(map, back), filled, dropped: total - kept.len() };
         }
         kept.retain(|c| stuck.binary_search(c).is_err());
@@ -129,22 +143,8 @@ impl Field {
     fn pull(&mut self, map: &ViewMap, f: usize, pull_mm: f64) -> bool {
         let home = self.fans[f].q;
         let centre = |(c, _): &Corner| map.points_mean(self.points[*c as usize]);
-        let corners = &self.fans[f].corners;
-        let inwards: DVec2 = corners.iter().map(|c| (centre(c) - home).normalize_or_zero()).sum();
-        let (c, k) = corners[0];
-        let length = pull_mm / self.depth[c as usize][k as usize];
-        for share in [1.0, 0.5, 0.25] {
-            let moved = home + inwards.normalize_or_zero() * length * share;
-            let upright = |&(c, k): &Corner| {
-                let [a, b] = [1, 2].map(|j| self.fans[self.fan_of[c as usize][((k + j) % 3) as usize] as usize].q);
-                orient(moved, a, b) > 0.0
-            };
-            if moved != home && corners.iter().all(upright) {
-                self.fans[f].q = moved;
-                return true;
-            }
-        }
-        false
+        let inwards: DVec2 = self.fans[f].corners.iter().map(|c| (centre(c) - home).normalize_or_zero()).sum();
+        self.shift(f, inwards, pull_mm)
     }
 
     /// Makes depths around every point and along every side fit for a manifold; gives the number of corners changed.
@@ -238,6 +238,42 @@ impl Field {
         changed
     }
 
+    /// Moves the edge behind nearer supports outwards, as far as no cell turns over.
+    fn lap(&mut self, hidden: &impl Fn(u32, usize) -> bool) {
+        let mut outwards: BTreeMap<u32, DVec2> = BTreeMap::new();
+        for c in 0..self.cells.len() {
+            for k in (0..3).filter(|k| self.neighbours[c][*k].is_none() && hidden(self.cells[c], *k)) {
+                let ends = [self.fan_of[c][k], self.fan_of[c][(k + 1) % 3]];
+                let [u, v] = ends.map(|f| self.fans[f as usize].q);
+                // Longer sides weigh more, so that kinks too small to see do not turn the direction.
+                ends.iter().for_each(|f| *outwards.entry(*f).or_default() -= (v - u).perp());
+            }
+        }
+        for (f, direction) in outwards {
+            self.shift(f as usize, direction, LAP_MM);
+        }
+    }
+
+    /// Moves a fan's ray `by` millimetres in the image, or half or a quarter of it, if no cell turns over.
+    fn shift(&mut self, f: usize, direction: DVec2, by: f64) -> bool {
+        let home = self.fans[f].q;
+        let corners = &self.fans[f].corners;
+        let (c, k) = corners[0];
+        let length = by / self.depth[c as usize][k as usize];
+        for share in [1.0, 0.5, 0.25] {
+            let moved = home + direction.normalize_or_zero() * length * share;
+            let upright = |&(c, k): &Corner| {
+                let [a, b] = [1, 2].map(|j| self.fans[self.fan_of[c as usize][((k + j) % 3) as usize] as usize].q);
+                orient(moved, a, b) > 0.0
+            };
+            if moved != home && corners.iter().all(upright) {
+                self.fans[f].q = moved;
+                return true;
+            }
+        }
+        false
+    }
+
     fn solid(&self, map: &ViewMap, back: impl Fn(DVec2) -> f64) -> TriMesh {
         let mut mesh = TriMesh::default();
         let columns: Vec<Column> = (0..self.fans.len()).map(|f| self.column(map, f, &back, &mut mesh)).collect();
@@ -251,8 +287,8 @@ impl Field {
                 match self.neighbours[c][k] {
                     None => wall(&mut mesh.faces, &v.down(dv), &u.down(du)),
                     Some(n) if n as usize > c => {
-                        let at = |p: u32| self.points[n as usize].iter().position(|x| *x == p).expect("neighbours share both points of a side");
-                        let (eu, ev) = (self.depth[n as usize][at(self.points[c][k])], self.depth[n as usize][at(self.points[c][(k + 1) % 3])]);
+                        let at = |f: u32| self.fan_of[n as usize].iter().position(|x| *x == f).expect("neighbours share both fans of a side");
+                        let (eu, ev) = (self.depth[n as usize][at(self.fan_of[c][k])], self.depth[n as usize][at(self.fan_of[c][(k + 1) % 3])]);
                         wall(&mut mesh.faces, &v.between(dv, ev), &u.between(du, eu));
                     }
                     Some(_) => {}

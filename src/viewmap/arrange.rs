@@ -79,7 +79,7 @@ fn triangulate(segments: &[Segment], (lo, hi): (DVec2, DVec2), snap: &Snap) -> R
     }
     let points = cdt.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect();
     let corners = cdt.inner_faces().map(|f| f.vertices().map(|v| v.fix().index() as u32));
-    Ok((points, corners.map(|corners| Cell { corners, face: None, support: None }).collect()))
+    Ok((points, corners.map(|corners| Cell { corners, face: None, support: None, support_depth: f64::INFINITY }).collect()))
 }
 
 /// For every cell the cells across its three sides.

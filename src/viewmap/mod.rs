@@ -36,6 +36,8 @@ pub struct Cell {
     pub face: Option<u32>,
     /// The support first hit here.
     pub support: Option<u32>,
+    /// Depth along the forward axis at which the cell's centre meets it; infinite without.
+    pub support_depth: f64,
 }
 
 /// See the module.
@@ -210,7 +212,9 @@ fn label(map: &mut ViewMap, target: &Target, supports: &SupportField) -> Vec<usi
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
         let face = seen_face(&map.plane, target, centre);
         map.cells[c].face = face.map(|f| f as u32);
-        map.cells[c].support = supports.first_hit(map.plane.eye, map.plane.direction(centre)).map(|h| h.0);
+        let hit = supports.first_hit(map.plane.eye, map.plane.direction(centre));
+        map.cells[c].support = hit.map(|h| h.0);
+        map.cells[c].support_depth = hit.map_or(f64::INFINITY, |h| h.1);
         if face.is_some_and(|f| !holds(target.image_of(f), corners)) {
             doubtful.push(c);
         }
