@@ -8,6 +8,8 @@ mod golden;
 mod hostile;
 mod meshes;
 mod numerics;
+mod readme;
 mod render;
 mod scene;
+mod scenes;
 mod shapes;
