@@ -7,7 +7,8 @@
 
 use super::ordering::Order;
 use super::program::{Program, Quadratic, Row, RowKind};
-use super::{CurvatureOptions, Depths, SolveError, scales, solve};
+use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles, solve};
+use crate::geom::solid_angle;
 use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
 use crate::mesh::DisjointSets;
@@ -49,19 +50,22 @@ pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups:
     Ok(Depths { mu: scales(groups, &s), s, solved })
 }
 
-/// Vertices at which the view map shows a face of theirs.
+/// Vertices of whose faces turned to the eye at least half is seen, by solid angle. A share rather than the vertex itself,
+/// which on a silhouette is seen or not by rounding alone: two such flips changed relative depths by 7e-3 on a small ball.
 fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
-    let mut visible = vec![false; target.mesh.vertices.len()];
-    for cell in &map.cells {
-        let Some(face) = cell.face else { continue };
-        for p in cell.corners {
-            let (anchor, _) = crate::groups::anchor(target, face as usize, map.points[p as usize]);
-            if let Some(k) = (0..3).find(|k| anchor.weights[*k] == 1.0) {
-                visible[anchor.vertices[k] as usize] = true;
+    let seen = seen_solid_angles(target, map);
+    let mut shares = vec![(0.0, 0.0); target.mesh.vertices.len()];
+    for (f, face) in target.mesh.faces.iter().enumerate() {
+        let [a, b, c] = target.mesh.corners(f).map(|p| p - map.plane.eye);
+        let whole = solid_angle(a, b, c);
+        if whole > 0.0 || seen[f] > 0.0 {
+            for v in face {
+                shares[*v as usize].0 += seen[f];
+                shares[*v as usize].1 += whole.abs();
             }
         }
     }
-    visible
+    shares.iter().map(|(seen, whole)| *whole > 0.0 && *seen >= 0.5 * whole).collect()
 }
 
 /// For every vertex the coefficients (vectors) of `sum of c_ij v_j (s_j - s_i)`: neighbours first, itself last.

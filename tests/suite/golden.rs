@@ -1,5 +1,7 @@
-//! Pictures kept under `tests/golden`. `BLESS=1` rewrites them; a failure leaves expected | found | difference in the temporary directory.
+//! Pictures and figures kept under `tests/golden`. `BLESS=1` rewrites them; a picture that differs leaves
+//! expected | found | difference in the temporary directory.
 
+use serde_json::Value;
 use std::path::Path;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -62,4 +64,50 @@ fn three_panels(expected: &Pixmap, found: &Pixmap) -> Pixmap {
         }
     }
     panels
+}
+
+/// Compares figures of a scene with the golden ones: same keys and texts, numbers within [`tolerance`].
+pub fn figures(name: &str, found: &Value) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/golden")
+        .join(name);
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, serde_json::to_string_pretty(found).unwrap() + "\n").unwrap();
+        return;
+    }
+    let text = std::fs::read_to_string(&path)
+        .unwrap_or_else(|e| panic!("{}: {e}; BLESS=1 writes it", path.display()));
+    let mut wrong = Vec::new();
+    differences("", &serde_json::from_str(&text).unwrap(), found, &mut wrong);
+    assert!(wrong.is_empty(), "{name}:\n{}", wrong.join("\n"));
+}
+
+/// Relative: what another processor's rounding may change. Small counts must be the same.
+fn tolerance(key: &str) -> f64 {
+    match key {
+        "volume_mm3" | "area_mm2" | "size_mm" | "solid_angle_sr" => 0.001,
+        _ => 0.02,
+    }
+}
+
+fn differences(key: &str, expected: &Value, found: &Value, wrong: &mut Vec<String>) {
+    match (expected, found) {
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            a.iter()
+                .for_each(|(key, value)| differences(key, value, &b[key], wrong));
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            a.iter()
+                .zip(b)
+                .for_each(|(a, b)| differences(key, a, b, wrong));
+        }
+        (Value::Number(_), Value::Number(_)) => {
+            let (a, b) = (expected.as_f64().unwrap(), found.as_f64().unwrap());
+            if (a - b).abs() > tolerance(key) * a.abs() {
+                wrong.push(format!("{key}: expected {a}, found {b}"));
+            }
+        }
+        _ if expected == found => {}
+        _ => wrong.push(format!("{key}: expected {expected}, found {found}")),
+    }
 }

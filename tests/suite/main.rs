@@ -1,11 +1,15 @@
 //! Integration tests, one module a subject.
 
+mod architecture;
+mod cli;
 mod diagram;
 mod formats;
 mod golden;
 mod hostile;
 mod meshes;
+mod numerics;
+mod readme;
 mod render;
-mod shapes;
-mod cli;
 mod scene;
+mod scenes;
+mod shapes;

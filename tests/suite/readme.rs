@@ -1,0 +1,72 @@
+//! The README keeps its word: its scene resolves, its files and pictures exist, its commands are the program's.
+
+use pillarforest::diag::Diagnostic;
+use pillarforest::scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn text(file: &str) -> String {
+    fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+/// Contents of the fenced blocks of one language.
+fn blocks(text: &str, language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    text.split(&fence)
+        .skip(1)
+        .map(|rest| rest[..rest.find("```").expect("a closing fence")].to_owned())
+        .collect()
+}
+
+#[test]
+fn the_scene_in_the_readme_resolves_without_a_word() {
+    let scenes = blocks(&text("README.md"), "ron");
+    assert_eq!(scenes.len(), 1);
+    let read = |file: &str| {
+        fs::read(root().join("scenes").join(file))
+            .map_err(|e| Diagnostic::error(format!("{file}: {e}")))
+    };
+    let done = scene::resolve(&scenes[0], &read).unwrap_or_else(|problems| panic!("{problems:?}"));
+    assert!(done.warnings.is_empty(), "{:?}", done.warnings);
+    assert_eq!(done.value.views.len(), 2);
+}
+
+#[test]
+fn links_and_pictures_lead_to_files() {
+    for page in ["README.md", "CHANGELOG.md", "scenes/models/README.md"] {
+        let text = text(page);
+        let folder = root().join(Path::new(page).parent().unwrap());
+        for rest in text.split("](").skip(1) {
+            let link = &rest[..rest.find(')').unwrap()];
+            if !link.starts_with("http") && !link.starts_with('#') {
+                assert!(folder.join(link).exists(), "{page}: {link}");
+            }
+        }
+    }
+}
+
+#[test]
+fn commands_name_scenes_that_exist() {
+    let readme = text("README.md");
+    for word in readme.split(|c: char| c.is_whitespace() || "`()".contains(c)) {
+        if word.starts_with("scenes/") && word.ends_with(".ron") {
+            assert!(root().join(word).exists(), "{word}");
+        }
+    }
+    for command in [
+        "cargo run --release -- build scenes/four-creatures.ron",
+        "cargo test --release",
+    ] {
+        assert!(readme.contains(command), "{command}");
+    }
+}
+
+#[test]
+fn the_version_is_in_the_changelog() {
+    let heading = format!("## {}", env!("CARGO_PKG_VERSION"));
+    assert!(text("CHANGELOG.md").contains(&heading), "{heading}");
+}

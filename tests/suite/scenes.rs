@@ -1,0 +1,301 @@
+//! The bundled scenes, built to the end once each and looked at from several sides; the bundled models.
+//!
+//! The reference forest is built where `PILLARFOREST_MODELS` names the folder of its models.
+
+use crate::golden;
+use pillarforest::compile::{Build, Goal, OutputFile, run};
+use pillarforest::diag::Diagnostic;
+use pillarforest::formats::{inspect, read_mesh};
+use pillarforest::mesh::{Solid, check};
+use pillarforest::scene::{self, Scene};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// Scenes whose models are not bundled.
+const FOREIGN: [&str; 1] = ["reference-forest"];
+
+struct Built {
+    scene: Scene,
+    build: Build,
+    report: Value,
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// File names without ending of all scenes.
+fn scene_names() -> Vec<String> {
+    let paths = fs::read_dir(root().join("scenes")).unwrap();
+    let paths = paths.map(|e| e.unwrap().path());
+    let mut names: Vec<String> = paths
+        .filter(|p| p.extension().is_some_and(|e| e == "ron"))
+        .map(|p| p.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+fn resolved(name: &str) -> Scene {
+    let text = fs::read_to_string(root().join(format!("scenes/{name}.ron"))).unwrap();
+    let outside = std::env::var_os("PILLARFOREST_MODELS").map(PathBuf::from);
+    let read = |file: &str| {
+        let path = match &outside {
+            Some(folder) if FOREIGN.contains(&name) => folder.join(file),
+            _ => root().join("scenes").join(file),
+        };
+        fs::read(&path).map_err(|e| Diagnostic::error(format!("{}: {e}", path.display())))
+    };
+    scene::resolve(&text, &read)
+        .unwrap_or_else(|problems| panic!("{name}: {problems:?}"))
+        .value
+}
+
+fn made(scene: &Scene, goal: Goal) -> Build {
+    run(scene, goal, &|_, _| {}).unwrap_or_else(|problems| panic!("{}: {problems:?}", scene.title))
+}
+
+/// A scene of the repository with all its files, built once.
+fn built(name: &str) -> &'static Built {
+    static MINIMAL: OnceLock<Built> = OnceLock::new();
+    static FOUR: OnceLock<Built> = OnceLock::new();
+    static REFERENCE: OnceLock<Built> = OnceLock::new();
+    let slot = match name {
+        "minimal" => &MINIMAL,
+        "four-creatures" => &FOUR,
+        "reference-forest" => &REFERENCE,
+        _ => panic!("{name} is new: give it a place here and figures under tests/golden"),
+    };
+    slot.get_or_init(|| {
+        let scene = resolved(name);
+        let build = made(&scene, Goal::All);
+        let report = serde_json::from_slice(bytes(&build, "report.json")).unwrap();
+        Built {
+            scene,
+            build,
+            report,
+        }
+    })
+}
+
+/// Names of the scenes that can be built here.
+fn buildable() -> Vec<String> {
+    let outside = std::env::var_os("PILLARFOREST_MODELS").is_some();
+    let mut names = scene_names();
+    names.retain(|n| outside || !FOREIGN.contains(&n.as_str()));
+    names
+}
+
+fn file<'a>(build: &'a Build, path: &str) -> &'a OutputFile {
+    build
+        .files
+        .iter()
+        .find(|f| f.path == path)
+        .unwrap_or_else(|| panic!("no {path}"))
+}
+
+fn bytes<'a>(build: &'a Build, path: &str) -> &'a [u8] {
+    &file(build, path).bytes
+}
+
+#[test]
+fn every_scene_becomes_one_closed_part_that_shows_its_models() {
+    for name in buildable() {
+        let Built { build, report, .. } = built(&name);
+        assert!(build.printable, "{name}");
+        assert_eq!(report["solid"]["parts"], 1, "{name}");
+        for check in report["solid"]["checks"].as_array().unwrap() {
+            assert_eq!(check["passed"], true, "{name}: {check}");
+        }
+        for view in report["views"].as_array().unwrap() {
+            let figure = |key: &str| {
+                view[key]
+                    .as_f64()
+                    .unwrap_or_else(|| panic!("{key}: {view}"))
+            };
+            let error = &view["normal_error_deg"];
+            assert!(figure("hit_share") >= 0.9999, "{name}: {view}");
+            assert!(figure("coverage") > 0.9999, "{name}: {view}");
+            assert!(error["mean"].as_f64().unwrap() <= 16.0, "{name}: {view}");
+            assert!(error["median"].as_f64().unwrap() <= 10.0, "{name}: {view}");
+        }
+    }
+}
+
+#[test]
+fn every_scene_gives_every_file_and_no_warning() {
+    for name in buildable() {
+        let Built { scene, build, .. } = built(&name);
+        let mut found: Vec<&str> = build.files.iter().map(|f| f.path.as_str()).collect();
+        found.sort_unstable();
+        let mut wanted: Vec<String> = [
+            "forest.3mf",
+            "forest.stl",
+            "forest.glb",
+            "plan.svg",
+            "plan.png",
+            "report.json",
+        ]
+        .map(String::from)
+        .to_vec();
+        wanted.extend(scene.views.iter().map(|v| format!("views/{}.png", v.name)));
+        wanted.sort_unstable();
+        assert_eq!(found, wanted, "{name}");
+        assert!(build.warnings.is_empty(), "{name}: {:?}", build.warnings);
+        assert!(build.summary.contains("watertight"), "{}", build.summary);
+    }
+}
+
+#[test]
+fn printable_files_pass_our_own_inspection_when_read_back() {
+    for name in buildable() {
+        let Built {
+            scene,
+            build,
+            report,
+        } = built(&name);
+        let stl = inspect("forest.stl", bytes(build, "forest.stl"))
+            .unwrap()
+            .value;
+        assert!(stl.printable(), "{name}: {stl}");
+        assert_eq!(
+            (stl.bodies.len(), stl.bodies[0].parts),
+            (1, 1),
+            "{name}: {stl}"
+        );
+        assert_eq!(
+            stl.bodies[0].triangles as u64,
+            report["solid"]["triangles"].as_u64().unwrap()
+        );
+        let objects = inspect("forest.3mf", bytes(build, "forest.3mf"))
+            .unwrap()
+            .value;
+        let names: Vec<&str> = objects.bodies.iter().map(|b| b.name.as_str()).collect();
+        let mut wanted = vec!["base and pillars".to_owned()];
+        wanted.extend(scene.views.iter().map(|v| format!("{} reliefs", v.name)));
+        assert_eq!(names, wanted, "{name}");
+        for body in &objects.bodies {
+            assert!(body.printable, "{name}: {}: {:?}", body.name, body.defects);
+        }
+        let volume = |o: &pillarforest::formats::Inspection| -> f64 {
+            o.bodies.iter().filter_map(|b| b.volume_mm3).sum()
+        };
+        // Reliefs are bedded in their pillars by a hair: the objects together are hardly more than the whole.
+        let (whole, parts) = (volume(&stl), volume(&objects));
+        assert!(
+            (parts / whole - 1.0).abs() < 0.005,
+            "{name}: {whole} mm3 in one, {parts} mm3 in parts"
+        );
+    }
+}
+
+#[test]
+fn figures_are_the_golden_ones() {
+    for name in buildable() {
+        let report = &built(&name).report;
+        let solid = &report["solid"];
+        let pick = |from: &Value, keys: &[&str]| -> Value {
+            keys.iter().map(|k| from[*k].clone()).collect()
+        };
+        let views = report["views"].as_array().unwrap().iter().map(|v| {
+            json!({
+                "name": v["name"],
+                "solid_angle_sr": v["solid_angle_sr"],
+                "groups": v["groups"],
+                "cells": v["cells"],
+                "mean_median_p90_deg": pick(&v["normal_error_deg"], &["mean", "median", "p90"]),
+            })
+        });
+        let found = json!({
+            "triangles": solid["triangles"],
+            "volume_mm3": solid["volume_mm3"],
+            "area_mm2": solid["area_mm2"],
+            "size_mm": solid["size_mm"],
+            "parts": solid["parts"],
+            "cavities": solid["cavities"],
+            "defects": check_stl(&built(&name).build),
+            "views": views.collect::<Value>(),
+        });
+        golden::figures(&format!("{name}.json"), &found);
+    }
+}
+
+/// Number of defects of the mesh that was written.
+fn check_stl(build: &Build) -> usize {
+    let mesh = read_mesh("forest.stl", bytes(build, "forest.stl")).unwrap();
+    check(&mesh.value).len()
+}
+
+#[test]
+fn two_runs_with_any_number_of_threads_give_the_same_bytes() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build()
+            .unwrap()
+            .install(|| made(&resolved("minimal"), Goal::All))
+    };
+    let first = &built("minimal").build;
+    for threads in [1, 2] {
+        let second = with(threads);
+        assert_eq!(first.summary, second.summary);
+        assert_eq!(first.files.len(), second.files.len());
+        for (a, b) in first.files.iter().zip(&second.files) {
+            assert_eq!(a.path, b.path);
+            assert!(a.bytes == b.bytes, "{} with {threads} threads", a.path);
+        }
+    }
+}
+
+#[test]
+fn pictures_are_the_golden_ones() {
+    let mut four = resolved("four-creatures");
+    four.output.plan_width = 900;
+    golden::picture(
+        "four-creatures-plan.png",
+        bytes(&made(&four, Goal::Plan), "plan.png"),
+    );
+    golden::picture("owl.png", bytes(&built("minimal").build, "views/owl.png"));
+}
+
+#[test]
+fn bundled_models_are_sound() {
+    let mut count = 0;
+    for entry in fs::read_dir(root().join("scenes/models")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "ply") {
+            continue;
+        }
+        count += 1;
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let read = read_mesh(name, &fs::read(&path).unwrap()).unwrap();
+        assert!(read.warnings.is_empty(), "{name}: {:?}", read.warnings);
+        let vertices = read.value.vertices.len();
+        assert!((15_000..=40_000).contains(&vertices), "{name}: {vertices}");
+        assert!(read.value.volume() > 0.0, "{name}");
+        let solid = Solid::new(read.value).unwrap_or_else(|defects| panic!("{name}: {defects:?}"));
+        assert_eq!((solid.parts(), solid.cavities()), (1, 0), "{name}");
+    }
+    assert_eq!(count, 4);
+}
+
+#[test]
+fn a_layer_without_core_is_told_with_view_and_pillar() {
+    let mut scene = resolved("minimal");
+    for support in &mut scene.supports {
+        if let Some(layer) = &mut support.layer {
+            layer.core = 3.5;
+        }
+    }
+    let problems = run(&scene, Goal::Check, &|_, _| {}).expect_err("no core is left");
+    let pillars = scene.supports.iter().filter(|s| s.layer.is_some());
+    for (pillar, problem) in pillars.zip(&problems) {
+        assert!(
+            problem.message.contains(&pillar.name) && problem.message.contains("\"owl\""),
+            "{}",
+            problem.message
+        );
+    }
+    assert_eq!(problems.len(), 5);
+}
