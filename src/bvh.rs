@@ -24,9 +24,15 @@ pub struct Bvh {
 impl Bvh {
     pub fn new(mesh: &TriMesh) -> Self {
         let triangles: Vec<[DVec3; 3]> = (0..mesh.faces.len()).map(|f| mesh.corners(f)).collect();
-        let pad = mesh.bounds().map_or(0.0, |(lo, hi)| 1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length()));
+        let pad = mesh.bounds().map_or(0.0, |(lo, hi)| {
+            1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length())
+        });
         let boxes: Vec<Aabb> = triangles.iter().map(|t| padded_box(t, pad)).collect();
-        let tree = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
+        let tree = build_bvh2(
+            &boxes,
+            BvhBuildParams::fast_build(),
+            &mut Duration::default(),
+        );
         Self { tree, triangles }
     }
 
@@ -36,22 +42,30 @@ impl Bvh {
     }
 
     /// The nearest face that `accept`s, by face index.
-    pub fn first_hit_where(&self, origin: DVec3, direction: DVec3, accept: impl Fn(usize) -> bool) -> Option<Hit> {
+    pub fn first_hit_where(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        accept: impl Fn(usize) -> bool,
+    ) -> Option<Hit> {
         if self.triangles.is_empty() {
             return None;
         }
         let woop = WoopRay::new(origin, direction);
         let mut best: Option<Hit> = None;
         let mut nearest = obvhs::ray::RayHit::none();
-        self.tree.ray_traverse(f32_ray(origin, direction), &mut nearest, |_, slot| {
-            let face = self.tree.primitive_indices[slot] as usize;
-            let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else { return f32::INFINITY };
-            if best.is_none_or(|b| t < b.t || (t == b.t && face < b.face)) {
-                best = Some(Hit { face, t });
-            }
-            // Rounded up well past f32 error, so that an equally near face is still visited.
-            (t * (1.0 + 1e-6)) as f32
-        });
+        self.tree
+            .ray_traverse(f32_ray(origin, direction), &mut nearest, |_, slot| {
+                let face = self.tree.primitive_indices[slot] as usize;
+                let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else {
+                    return f32::INFINITY;
+                };
+                if best.is_none_or(|b| t < b.t || (t == b.t && face < b.face)) {
+                    best = Some(Hit { face, t });
+                }
+                // Rounded up well past f32 error, so that an equally near face is still visited.
+                (t * (1.0 + 1e-6)) as f32
+            });
         best
     }
 
@@ -62,17 +76,19 @@ impl Bvh {
         }
         let woop = WoopRay::new(origin, direction);
         let mut hits = Vec::new();
-        self.tree.ray_traverse_anyhit(f32_ray(origin, direction), |_, slot| {
-            let face = self.tree.primitive_indices[slot] as usize;
-            hits.extend(woop.hit(&self.triangles[face]).map(|t| Hit { face, t }));
-        });
+        self.tree
+            .ray_traverse_anyhit(f32_ray(origin, direction), |_, slot| {
+                let face = self.tree.primitive_indices[slot] as usize;
+                hits.extend(woop.hit(&self.triangles[face]).map(|t| Hit { face, t }));
+            });
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
         hits
     }
 
     /// Whether anything lies on the ray before `t_max`.
     pub fn blocked(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
-        self.first_hit(origin, direction).is_some_and(|h| h.t < t_max)
+        self.first_hit(origin, direction)
+            .is_some_and(|h| h.t < t_max)
     }
 }
 
@@ -83,7 +99,10 @@ fn padded_box(triangle: &[DVec3; 3], pad: f64) -> Aabb {
 }
 
 fn f32_ray(origin: DVec3, direction: DVec3) -> Ray {
-    Ray::new_inf(Vec3A::from(origin.as_vec3()), Vec3A::from(direction.as_vec3()))
+    Ray::new_inf(
+        Vec3A::from(origin.as_vec3()),
+        Vec3A::from(direction.as_vec3()),
+    )
 }
 
 /// A ray in the sheared frame of the watertight test: its direction is the largest axis.
@@ -100,8 +119,16 @@ impl WoopRay {
         if direction[kz] < 0.0 {
             std::mem::swap(&mut kx, &mut ky);
         }
-        let shear = DVec3::new(direction[kx] / direction[kz], direction[ky] / direction[kz], 1.0 / direction[kz]);
-        Self { origin, axes: [kx, ky, kz], shear }
+        let shear = DVec3::new(
+            direction[kx] / direction[kz],
+            direction[ky] / direction[kz],
+            1.0 / direction[kz],
+        );
+        Self {
+            origin,
+            axes: [kx, ky, kz],
+            shear,
+        }
     }
 
     fn hit(&self, triangle: &[DVec3; 3]) -> Option<f64> {

@@ -18,7 +18,11 @@ pub enum Place {
     /// A byte range of the scene's text.
     Scene(Range<usize>),
     /// A line (1-based) of a text model file, with the offending line's text (shortened, made safe to print).
-    Line { file: String, line: usize, excerpt: String },
+    Line {
+        file: String,
+        line: usize,
+        excerpt: String,
+    },
     /// A byte offset of a binary model file.
     Byte { file: String, offset: u64 },
     /// A file as a whole.
@@ -40,11 +44,20 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     pub fn error(message: impl Into<String>) -> Self {
-        Self { severity: Severity::Error, message: message.into(), place: None, label: None, help: Vec::new() }
+        Self {
+            severity: Severity::Error,
+            message: message.into(),
+            place: None,
+            label: None,
+            help: Vec::new(),
+        }
     }
 
     pub fn warning(message: impl Into<String>) -> Self {
-        Self { severity: Severity::Warning, ..Self::error(message) }
+        Self {
+            severity: Severity::Warning,
+            ..Self::error(message)
+        }
     }
 
     pub fn at(mut self, place: Place) -> Self {
@@ -81,5 +94,13 @@ pub fn escaped(text: &str) -> String {
         c.is_control()
             || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{061c}' | '\u{feff}')
     };
-    text.chars().flat_map(|c| if hidden(c) { c.escape_unicode().collect::<Vec<_>>() } else { vec![c] }).collect()
+    text.chars()
+        .flat_map(|c| {
+            if hidden(c) {
+                c.escape_unicode().collect::<Vec<_>>()
+            } else {
+                vec![c]
+            }
+        })
+        .collect()
 }

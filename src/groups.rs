@@ -36,7 +36,9 @@ impl Anchor {
     /// The vertices that matter with their weights.
     pub fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
         let (vertices, weights) = (self.vertices, self.weights);
-        (0..3).filter(move |k| weights[*k] > 0.0).map(move |k| (vertices[k] as usize, weights[k]))
+        (0..3)
+            .filter(move |k| weights[*k] > 0.0)
+            .map(move |k| (vertices[k] as usize, weights[k]))
     }
 
     /// Relative depth of the point from those of all vertices (design: harmonic, because `1/lambda` is linear in the image).
@@ -72,22 +74,43 @@ pub fn anchor(target: &Target, face: usize, q: glam::DVec2) -> (Anchor, f64) {
     let area = (b - a).perp_dot(c - a).abs();
     let heights = [b.distance(c), c.distance(a), a.distance(b)].map(|side| area / side);
     let mut beta = barycentric(a, b, c, q).to_array();
-    (0..3).for_each(|k| beta[k] = if beta[k] * heights[k] > ON_SIDE { beta[k] } else { 0.0 });
+    (0..3).for_each(|k| {
+        beta[k] = if beta[k] * heights[k] > ON_SIDE {
+            beta[k]
+        } else {
+            0.0
+        }
+    });
     if !beta.iter().sum::<f64>().is_normal() {
         beta = [1.0, 0.0, 0.0];
     }
     let sum: f64 = beta.iter().sum();
     let inverse = [0, 1, 2].map(|k| beta[k] / sum / target.depth[vertices[k] as usize]);
     let total: f64 = inverse.iter().sum();
-    (Anchor { vertices, weights: inverse.map(|w| w / total) }, 1.0 / total)
+    (
+        Anchor {
+            vertices,
+            weights: inverse.map(|w| w / total),
+        },
+        1.0 / total,
+    )
 }
 
 /// Groups and bounds of a view.
 ///
 /// # Errors
 /// Supports whose layer reaches through them or leaves less than their minimum core, as this eye sees them.
-pub fn groups(view: &str, map: &ViewMap, target: &Target, field: &SupportField) -> Result<Groups, Vec<Diagnostic>> {
-    let slabs: Vec<Option<Slab>> = field.supports.iter().map(|s| Slab::new(s, map.plane.eye)).collect();
+pub fn groups(
+    view: &str,
+    map: &ViewMap,
+    target: &Target,
+    field: &SupportField,
+) -> Result<Groups, Vec<Diagnostic>> {
+    let slabs: Vec<Option<Slab>> = field
+        .supports
+        .iter()
+        .map(|s| Slab::new(s, map.plane.eye))
+        .collect();
     let component = face_components(&target.mesh);
     let carries = |c: usize| {
         let cell = map.cells[c];
@@ -98,7 +121,12 @@ pub fn groups(view: &str, map: &ViewMap, target: &Target, field: &SupportField) 
     let (groups, of_cell) = regions(map, &labels);
     check_layers(view, &groups, field, &slabs)?;
     let bounds = bounds(map, target, field, &groups, &of_cell, &slabs);
-    Ok(Groups { groups, of_cell, bounds, slabs })
+    Ok(Groups {
+        groups,
+        of_cell,
+        bounds,
+        slabs,
+    })
 }
 
 /// Flood fill over equal labels.
@@ -106,7 +134,9 @@ fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Opt
     let mut of_cell = vec![None; labels.len()];
     let mut groups = Vec::new();
     for seed in 0..labels.len() {
-        let Some((support, component)) = labels[seed].filter(|_| of_cell[seed].is_none()) else { continue };
+        let Some((support, component)) = labels[seed].filter(|_| of_cell[seed].is_none()) else {
+            continue;
+        };
         let id = groups.len() as u32;
         let mut cells = Vec::new();
         let mut stack = vec![seed as u32];
@@ -122,19 +152,31 @@ fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Opt
         }
         cells.sort_unstable();
         let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
-        groups.push(Group { support, component, cells, solid_angle_sr });
+        groups.push(Group {
+            support,
+            component,
+            cells,
+            solid_angle_sr,
+        });
     }
     (groups, of_cell)
 }
 
-fn check_layers(view: &str, groups: &[Group], field: &SupportField, slabs: &[Option<Slab>]) -> Result<(), Vec<Diagnostic>> {
+fn check_layers(
+    view: &str,
+    groups: &[Group],
+    field: &SupportField,
+    slabs: &[Option<Slab>],
+) -> Result<(), Vec<Diagnostic>> {
     let mut used: Vec<u32> = groups.iter().map(|g| g.support).collect();
     used.sort_unstable();
     used.dedup();
     let mut errors = Vec::new();
     for s in used {
         let support = &field.supports[s as usize];
-        let (Some(slab), Some(layer)) = (slabs[s as usize], support.layer) else { continue };
+        let (Some(slab), Some(layer)) = (slabs[s as usize], support.layer) else {
+            continue;
+        };
         if slab.behind() < layer.core {
             errors.push(
                 Diagnostic::error(format!(
@@ -147,7 +189,11 @@ fn check_layers(view: &str, groups: &[Group], field: &SupportField, slabs: &[Opt
             );
         }
     }
-    if errors.is_empty() { Ok(()) } else { Err(errors) }
+    if errors.is_empty() {
+        Ok(())
+    } else {
+        Err(errors)
+    }
 }
 
 fn bounds(
@@ -159,17 +205,36 @@ fn bounds(
     slabs: &[Option<Slab>],
 ) -> Vec<Bound> {
     // One bound for each group, point and set of vertices: cells that share a corner on a mesh vertex or edge agree there.
-    let mut keyed: Vec<((u32, u32, [u32; 3]), Bound)> = Vec::new();
+    type Key = (u32, u32, [u32; 3]);
+    let mut keyed: Vec<(Key, Bound)> = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
-        let (Some(group), Some(face), Some(support)) = (of_cell[c], cell.face, cell.support) else { continue };
-        let Some(slab) = slabs[support as usize] else { continue };
+        let (Some(group), Some(face), Some(support)) = (of_cell[c], cell.face, cell.support) else {
+            continue;
+        };
+        let Some(slab) = slabs[support as usize] else {
+            continue;
+        };
         for p in cell.corners {
             let q = map.points[p as usize];
             let (anchor, depth) = anchor(target, face as usize, q);
             let (near, far) = layer_at(map, field, &slab, support, q);
-            let mut key = [0, 1, 2].map(|k| if anchor.weights[k] > 0.0 { anchor.vertices[k] } else { u32::MAX });
+            let mut key = [0, 1, 2].map(|k| {
+                if anchor.weights[k] > 0.0 {
+                    anchor.vertices[k]
+                } else {
+                    u32::MAX
+                }
+            });
             key.sort_unstable();
-            keyed.push(((group, p, key), Bound { group, anchor, lower: near / depth, upper: far / depth }));
+            keyed.push((
+                (group, p, key),
+                Bound {
+                    group,
+                    anchor,
+                    lower: near / depth,
+                    upper: far / depth,
+                },
+            ));
         }
     }
     keyed.sort_by_key(|x| x.0);
@@ -182,23 +247,42 @@ fn bounds(
 fn needed(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> Vec<Bound> {
     let alone = |b: &Bound| b.anchor.terms().count() == 1;
     let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0 as u32).next();
-    let mut bounded: Vec<(u32, u32)> = bounds.iter().filter(|b| alone(b)).filter_map(|b| Some((b.group, vertex(b)?))).collect();
+    let mut bounded: Vec<(u32, u32)> = bounds
+        .iter()
+        .filter(|b| alone(b))
+        .filter_map(|b| Some((b.group, vertex(b)?)))
+        .collect();
     bounded.sort_unstable();
     let flat = |b: &Bound| {
         let support = groups[b.group as usize].support;
-        field.supports[support as usize].layer.is_some_and(|l| l.datum == Datum::AxisPlane)
+        field.supports[support as usize]
+            .layer
+            .is_some_and(|l| l.datum == Datum::AxisPlane)
     };
     let follows = |b: &Bound| {
-        !alone(b) && flat(b) && b.anchor.terms().all(|(v, _)| bounded.binary_search(&(b.group, v as u32)).is_ok())
+        !alone(b)
+            && flat(b)
+            && b.anchor
+                .terms()
+                .all(|(v, _)| bounded.binary_search(&(b.group, v as u32)).is_ok())
     };
     bounds.into_iter().filter(|b| !follows(b)).collect()
 }
 
 /// Smallest and largest depth (along the image plane's forward axis) the layer of `support` allows on the ray `q`.
-pub fn layer_at(map: &ViewMap, field: &SupportField, slab: &Slab, support: u32, q: glam::DVec2) -> (f64, f64) {
+pub fn layer_at(
+    map: &ViewMap,
+    field: &SupportField,
+    slab: &Slab,
+    support: u32,
+    q: glam::DVec2,
+) -> (f64, f64) {
     let direction = map.plane.direction(q);
     let on_axis = slab.plane(direction, 0.0);
     // At the outline the ray may just miss the support: the axis plane is where the surface ends there.
-    let surface = field.first_hit(map.plane.eye, direction).filter(|h| h.0 == support).map_or(on_axis, |h| h.1);
+    let surface = field
+        .first_hit(map.plane.eye, direction)
+        .filter(|h| h.0 == support)
+        .map_or(on_axis, |h| h.1);
     slab.bounds(direction, surface)
 }

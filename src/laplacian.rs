@@ -24,7 +24,10 @@ impl FaceGeometry {
             })
             .collect();
         let mean = lengths.iter().flatten().sum::<f64>() / (3 * lengths.len()).max(1) as f64;
-        let (cotangents, areas) = lengths.iter().map(|l| face_geometry(l.map(|x| x + MOLLIFY * mean), mean)).unzip();
+        let (cotangents, areas) = lengths
+            .iter()
+            .map(|l| face_geometry(l.map(|x| x + MOLLIFY * mean), mean))
+            .unzip();
         Self { cotangents, areas }
     }
 
@@ -41,7 +44,9 @@ impl FaceGeometry {
                     None => {
                         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                         // Squared length of the side opposite corner i is 2 A (cot_j + cot_k), and likewise for j.
-                        area * (cot[i] * (cot[j] + cot[k]).max(0.0) + cot[j] * (cot[i] + cot[k]).max(0.0)) / 4.0
+                        area * (cot[i] * (cot[j] + cot[k]).max(0.0)
+                            + cot[j] * (cot[i] + cot[k]).max(0.0))
+                            / 4.0
                     }
                 };
                 areas[face[k] as usize] += share;

@@ -1,23 +1,79 @@
-//! `pillarforest`: scenes of models, eyes and pillars become printable forests.
+//! `pillarforest`: scenes of models, eyes and pillars become printable forests in which each model appears, complete and
+//! correctly shaded, from one eye only.
 //!
-//! (The crate doc is the architecture; it is completed as stages land.)
+//! The method is *Appearance-Mimicking Surfaces* (Schueller, Panozzo & Sorkine-Hornung, SIGGRAPH Asia 2014): every vertex of a
+//! model moves only along its ray from the eye, so that normals are kept while hard depth bounds hold; every disconnected piece
+//! has a scale of its own; the surface is then cut and each piece scaled back onto its pillar.
+//!
+//! # Stages
+//!
+//! Each stage is a function from one named type to the next; [`compile::run`] is all of them on one screen.
+//!
+//! | from | by | to |
+//! |---|---|---|
+//! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
+//! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
+//! | a view's models | [`viewmap::Target::new`] | the target ready for rays, projected |
+//! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |
+//! | view map | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
+//! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
+//! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
+//! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
+//! | forest and views | [`render::view_picture`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
+//!
+//! # Symbols
+//!
+//! `o` eye; `q` a ray as a point of the image plane; `z` depth along the plane's forward axis; `lambda` distance along the ray,
+//! `lambda0` that of the model; `s = lambda / lambda0 = z / z0` relative depth; `x = ln s`; `mu_g` scale of group `g`,
+//! `m_g = ln mu_g`; `w` vertex weight. Millimetres, radians and f64 unless a name says otherwise; z is up.
+//!
+//! # Invariants
+//!
+//! - A module names only modules that stand above it in the list below.
+//! - Nothing here touches files, the clock or the terminal: the binary (`main.rs`, `cli/`) does.
+//! - The same scene gives the same bytes, whatever the thread count: no hash order, no random numbers, fixed orders of reduction.
+//! - Printable formats take [`mesh::Solid`], whose only constructor checks closed, oriented, 2-manifold, free of
+//!   self-intersection and positive volume after rounding to f32.
+//! - One library, one module: `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in `mimic::solve`, `manifold-rust` in
+//!   `carve::boolean`, `i_overlay` in `carve::hollow`.
+//! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths: a new
+//!   kind of support is a new variant, not a new pipeline.
 #![forbid(unsafe_code)]
 
+// In reading order; blank lines keep the formatter from sorting them.
+
 pub mod diag;
+
 pub mod geom;
+
 pub mod mesh;
+
 pub mod bvh;
+
 pub mod support;
+
 pub mod view;
+
 pub mod viewmap;
+
 pub mod groups;
+
 pub mod laplacian;
+
 pub mod mimic;
+
 pub mod relief;
+
 pub mod carve;
+
 pub mod formats;
+
 pub mod diagram;
+
 pub mod render;
+
 pub mod report;
+
 pub mod scene;
+
 pub mod compile;

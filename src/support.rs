@@ -31,9 +31,19 @@ pub struct Layer {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SupportKind {
     /// An upright prism. `profile` is a simple polygon in the ground plane, world coordinates, counter-clockwise.
-    Pillar { axis: DVec2, profile: Vec<DVec2>, bottom: f64, top: f64, round: bool },
+    Pillar {
+        axis: DVec2,
+        profile: Vec<DVec2>,
+        bottom: f64,
+        top: f64,
+        round: bool,
+    },
     /// The slab the pillars stand on. `outline` as a pillar's profile.
-    Base { outline: Vec<DVec2>, bottom: f64, top: f64 },
+    Base {
+        outline: Vec<DVec2>,
+        bottom: f64,
+        top: f64,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -68,22 +78,38 @@ impl Slab {
     /// The layer of `support` seen from `eye`; `None` if the support carries nothing or the eye stands on its axis.
     pub fn new(support: &Support, eye: DVec3) -> Option<Self> {
         let layer = support.layer?;
-        let SupportKind::Pillar { axis, profile, .. } = &support.kind else { return None };
+        let SupportKind::Pillar { axis, profile, .. } = &support.kind else {
+            return None;
+        };
         let offset = *axis - eye.truncate();
         let distance = offset.length();
         let towards = offset.try_normalize()?;
         let along = profile.iter().map(|p| (*p - *axis).dot(towards));
-        let reach = along.fold((0.0f64, 0.0f64), |(front, back), d| (front.max(-d), back.max(d)));
-        Some(Self { eye, towards: towards.extend(0.0), distance, layer, reach })
+        let reach = along.fold((0.0f64, 0.0f64), |(front, back), d| {
+            (front.max(-d), back.max(d))
+        });
+        Some(Self {
+            eye,
+            towards: towards.extend(0.0),
+            distance,
+            layer,
+            reach,
+        })
     }
 
     /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support.
     pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
         match self.layer.datum {
-            Datum::AxisPlane => (self.plane(direction, -self.layer.front), self.plane(direction, self.layer.back)),
+            Datum::AxisPlane => (
+                self.plane(direction, -self.layer.front),
+                self.plane(direction, self.layer.back),
+            ),
             Datum::Surface => {
                 let mm = 1.0 / direction.length();
-                (surface - self.layer.front * mm, surface + self.layer.back * mm)
+                (
+                    surface - self.layer.front * mm,
+                    surface + self.layer.back * mm,
+                )
             }
         }
     }

@@ -30,15 +30,23 @@ impl Boolean {
 
     /// A prism over simple rings (outer ones counter-clockwise, holes clockwise) whose points `(x, y)` at height `z` (0 or 1)
     /// are then moved by `place`, which must keep orientation. Empty for no rings.
-    pub fn prism(rings: &[Vec<[f64; 2]>], place: impl Fn(DVec2, f64) -> DVec3) -> Result<Self, BooleanError> {
+    pub fn prism(
+        rings: &[Vec<[f64; 2]>],
+        place: impl Fn(DVec2, f64) -> DVec3,
+    ) -> Result<Self, BooleanError> {
         if rings.is_empty() {
             return Ok(Self(Manifold::empty()));
         }
-        let polygons = rings.iter().map(|ring| ring.iter().map(|p| Vec2::new(p[0], p[1])).collect()).collect();
-        Self::checked(Manifold::extrude(&polygons, 1.0, 0, 0.0, Vec2::new(1.0, 1.0)).warp(|v| {
-            let p = place(DVec2::new(v.x, v.y), v.z);
-            *v = Vec3::new(p.x, p.y, p.z);
-        }))
+        let polygons = rings
+            .iter()
+            .map(|ring| ring.iter().map(|p| Vec2::new(p[0], p[1])).collect())
+            .collect();
+        Self::checked(
+            Manifold::extrude(&polygons, 1.0, 0, 0.0, Vec2::new(1.0, 1.0)).warp(|v| {
+                let p = place(DVec2::new(v.x, v.y), v.z);
+                *v = Vec3::new(p.x, p.y, p.z);
+            }),
+        )
     }
 
     /// The convex hull of points.
@@ -50,7 +58,16 @@ impl Boolean {
     /// The union of all parts, in pairs, pairs of pairs and so on: the order is fixed, whatever the thread count.
     pub fn union(mut parts: Vec<Self>) -> Result<Self, BooleanError> {
         while parts.len() > 1 {
-            parts = parts.par_chunks(2).map(|pair| if let [a, b] = pair { a.plus(b) } else { Ok(pair[0].clone()) }).collect::<Result<_, _>>()?;
+            parts = parts
+                .par_chunks(2)
+                .map(|pair| {
+                    if let [a, b] = pair {
+                        a.plus(b)
+                    } else {
+                        Ok(pair[0].clone())
+                    }
+                })
+                .collect::<Result<_, _>>()?;
         }
         Ok(parts.pop().unwrap_or_else(|| Self(Manifold::empty())))
     }
@@ -81,20 +98,32 @@ impl Boolean {
 
     /// Without parts smaller than `limit`; and the volume dropped. Cubic millimetres.
     pub fn without_crumbs(&self, limit: f64) -> (Self, f64) {
-        let (crumbs, kept): (Vec<Self>, Vec<Self>) = self.parts().into_iter().partition(|p| p.volume() < limit);
+        let (crumbs, kept): (Vec<Self>, Vec<Self>) =
+            self.parts().into_iter().partition(|p| p.volume() < limit);
         if crumbs.is_empty() {
             return (self.clone(), 0.0);
         }
         let kept: Vec<Manifold> = kept.into_iter().map(|p| p.0).collect();
-        (Self(Manifold::compose(&kept)), crumbs.iter().map(Self::volume).sum())
+        (
+            Self(Manifold::compose(&kept)),
+            crumbs.iter().map(Self::volume).sum(),
+        )
     }
 
     /// As a mesh, with features below `tolerance` millimetres simplified away (0: as it is).
     pub fn simplified(&self, tolerance: f64) -> TriMesh {
-        let solid = if tolerance > 0.0 { self.0.simplify(tolerance) } else { self.0.clone() };
+        let solid = if tolerance > 0.0 {
+            self.0.simplify(tolerance)
+        } else {
+            self.0.clone()
+        };
         let mesh = solid.get_mesh_gl64(-1);
-        let vertices = (0..mesh.num_vert()).map(|v| DVec3::from_array(mesh.get_vert_pos(v))).collect();
-        let faces = (0..mesh.num_tri()).map(|t| mesh.get_tri_verts(t).map(|v| v as u32)).collect();
+        let vertices = (0..mesh.num_vert())
+            .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
+            .collect();
+        let faces = (0..mesh.num_tri())
+            .map(|t| mesh.get_tri_verts(t).map(|v| v as u32))
+            .collect();
         TriMesh { vertices, faces }
     }
 

@@ -13,18 +13,34 @@ const REAR_MM: f64 = 0.6;
 /// One brace for every loose part larger than `crumb` cubic millimetres (the largest part is the support itself).
 pub fn braces(joined: &Boolean, slab: &Slab, crumb: f64) -> Result<Vec<Boolean>, BooleanError> {
     let parts = joined.parts();
-    parts.iter().skip(1).filter(|p| p.volume() >= crumb).filter_map(|p| brace(p, slab).transpose()).collect()
+    parts
+        .iter()
+        .skip(1)
+        .filter(|p| p.volume() >= crumb)
+        .filter_map(|p| brace(p, slab).transpose())
+        .collect()
 }
 
 fn brace(part: &Boolean, slab: &Slab) -> Result<Option<Boolean>, BooleanError> {
     let vertices = part.simplified(0.0).vertices;
-    let rear = vertices.iter().map(|p| slab.offset(*p)).fold(f64::NEG_INFINITY, f64::max);
-    let rear: Vec<DVec3> = vertices.into_iter().filter(|p| slab.offset(*p) > rear - REAR_MM).collect();
+    let rear = vertices
+        .iter()
+        .map(|p| slab.offset(*p))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let rear: Vec<DVec3> = vertices
+        .into_iter()
+        .filter(|p| slab.offset(*p) > rear - REAR_MM)
+        .collect();
     let thickness = slab.backing() - slab.deepest();
     let at = |p: &DVec3, offset: f64| slab.moved(*p, offset - slab.offset(*p));
     let (front, back) = (slab.deepest() + 0.1 * thickness, slab.backing());
     let stub: Vec<DVec3> = rear.iter().flat_map(|p| [*p, at(p, back)]).collect();
-    let bar = rear.iter().flat_map(|p| [at(p, front), at(p, back)]).flat_map(|p| [p, slab.onto_axis(p)]);
+    let bar = rear
+        .iter()
+        .flat_map(|p| [at(p, front), at(p, back)])
+        .flat_map(|p| [p, slab.onto_axis(p)]);
     let bar = Boolean::hull(&bar.collect::<Vec<_>>())?;
-    Boolean::hull(&stub)?.plus(&bar).map(|b| (!b.is_empty()).then_some(b))
+    Boolean::hull(&stub)?
+        .plus(&bar)
+        .map(|b| (!b.is_empty()).then_some(b))
 }

@@ -24,20 +24,37 @@ const PART_MM: f64 = 0.003;
 type Rings = Vec<Vec<[f64; 2]>>;
 
 /// The solid to take out of `support` in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
-pub fn hollow(map: &ViewMap, slab: &Slab, support: u32, cells: &[u32], bed: f64) -> Result<Boolean, BooleanError> {
+pub fn hollow(
+    map: &ViewMap,
+    slab: &Slab,
+    support: u32,
+    cells: &[u32],
+    bed: f64,
+) -> Result<Boolean, BooleanError> {
     let scale = slab.plane(map.plane.forward, 0.0);
-    let seen: Vec<u32> = (0..map.cells.len() as u32).filter(|c| map.cells[*c as usize].support == Some(support)).collect();
+    let seen: Vec<u32> = (0..map.cells.len() as u32)
+        .filter(|c| map.cells[*c as usize].support == Some(support))
+        .collect();
     let relief = simple(outlines(map, cells, scale));
     let seen = simple(outlines(map, &seen, scale));
-    let rim = offset(&relief, RIM_MM).overlay(&offset(&seen, -RIM_OVERLAP_MM), OverlayRule::Difference, FillRule::NonZero);
+    let rim = offset(&relief, RIM_MM).overlay(
+        &offset(&seen, -RIM_OVERLAP_MM),
+        OverlayRule::Difference,
+        FillRule::NonZero,
+    );
     let shape = offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero);
     let rings = offset(&flat(shape), -PART_MM);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
     // The prism's bottom becomes the far end: (right, up, towards the eye) is right-handed.
     Boolean::prism(&rings, |p, height| {
         let q = p / scale;
-        let offset = if height < 0.5 { floor } else { -slab.front() - CLEAR_MM };
-        map.plane.point(q, slab.plane(map.plane.direction(q), offset))
+        let offset = if height < 0.5 {
+            floor
+        } else {
+            -slab.front() - CLEAR_MM
+        };
+        map.plane
+            .point(q, slab.plane(map.plane.direction(q), offset))
     })
 }
 
@@ -48,7 +65,9 @@ fn outlines(map: &ViewMap, cells: &[u32], scale: f64) -> Rings {
         let cell = &map.cells[*c as usize];
         for k in 0..3 {
             if map.neighbours[*c as usize][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
-                next.entry(cell.corners[k]).or_default().push(cell.corners[(k + 1) % 3]);
+                next.entry(cell.corners[k])
+                    .or_default()
+                    .push(cell.corners[(k + 1) % 3]);
             }
         }
     }

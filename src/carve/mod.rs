@@ -78,7 +78,11 @@ pub enum CarveError {
 }
 
 fn list(defects: &[Defect]) -> String {
-    defects.iter().map(|d| d.to_string()).collect::<Vec<_>>().join("; ")
+    defects
+        .iter()
+        .map(|d| d.to_string())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// Carves and unites everything.
@@ -86,22 +90,40 @@ fn list(defects: &[Defect]) -> String {
 /// # Errors
 /// If the boolean library refuses an operand or a solid stays unsound at every width tried, with the support.
 pub fn carve(supports: &[Support], views: &[ViewRelief]) -> Result<Forest, CarveError> {
-    let carved: Vec<Carved> = (0..supports.len()).into_par_iter().map(|s| carve_support(supports, s, views)).collect::<Result<_, _>>()?;
+    let carved: Vec<Carved> = (0..supports.len())
+        .into_par_iter()
+        .map(|s| carve_support(supports, s, views))
+        .collect::<Result<_, _>>()?;
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
-    let of_view = |v: usize| carved.iter().flat_map(move |c| c.blocks.iter().filter(move |b| b.0 == v).map(|b| &b.1)).collect::<Vec<_>>();
+    let of_view = |v: usize| {
+        carved
+            .iter()
+            .flat_map(move |c| c.blocks.iter().filter(move |b| b.0 == v).map(|b| &b.1))
+            .collect::<Vec<_>>()
+    };
     let (whole, (bare, reliefs)) = rayon::join(
         || united(carved.iter().map(|c| &c.whole).collect(), "the forest"),
         || {
             rayon::join(
                 || united(carved.iter().map(|c| &c.bare).collect(), "the bare pillars"),
-                || (0..views.len()).into_par_iter().map(|v| united(of_view(v), views[v].name)).collect::<Result<Vec<_>, _>>(),
+                || {
+                    (0..views.len())
+                        .into_par_iter()
+                        .map(|v| united(of_view(v), views[v].name))
+                        .collect::<Result<Vec<_>, _>>()
+                },
             )
         },
     );
     let whole = whole?.unwrap_or_else(|| unreachable!("a scene has supports"));
     let bare = bare?.unwrap_or_else(|| unreachable!("a scene has supports"));
-    Ok(Forest { whole, bare, reliefs: reliefs?, repairs })
+    Ok(Forest {
+        whole,
+        bare,
+        reliefs: reliefs?,
+        repairs,
+    })
 }
 
 /// The union of solids, sound again; `None` of nothing.
@@ -109,22 +131,36 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
     if parts.is_empty() {
         return Ok(None);
     }
-    let operands = parts.iter().map(|s| Boolean::new(s.mesh())).collect::<Result<Vec<_>, _>>();
-    let whole = operands.and_then(Boolean::union).map_err(|source| CarveError::Boolean { place: place.into(), source })?;
+    let operands = parts
+        .iter()
+        .map(|s| Boolean::new(s.mesh()))
+        .collect::<Result<Vec<_>, _>>();
+    let whole = operands
+        .and_then(Boolean::union)
+        .map_err(|source| CarveError::Boolean {
+            place: place.into(),
+            source,
+        })?;
     sound(&whole, place).map(Some)
 }
 
 /// The result of booleans as a checked solid: as it is, mended, or mended after slivers were simplified away.
 fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
-    if std::env::var_os("PF_DEBUG").is_some() { let m = crate::mesh::snap_to_f32(&solid.simplified(0.0)).mesh; eprintln!("{place} raw {:?}", crate::mesh::check(&m)); }
+    if std::env::var_os("PF_DEBUG").is_some() {
+        let m = crate::mesh::snap_to_f32(&solid.simplified(0.0)).mesh;
+        eprintln!("{place} raw {:?}", crate::mesh::check(&m));
+    }
     for tolerance in [1e-4, 5e-4, 0.0] {
         match Solid::new(mend(&solid.simplified(tolerance))) {
             Ok(solid) => return Ok(solid),
             Err(d) => defects = d,
         }
     }
-    Err(CarveError::Unsound { place: place.into(), defects })
+    Err(CarveError::Unsound {
+        place: place.into(),
+        defects,
+    })
 }
 
 /// One support with its reliefs.
@@ -136,7 +172,11 @@ struct Carved {
 }
 
 /// Carves one support, at the first bed width that comes out sound.
-fn carve_support(supports: &[Support], s: usize, views: &[ViewRelief]) -> Result<Carved, CarveError> {
+fn carve_support(
+    supports: &[Support],
+    s: usize,
+    views: &[ViewRelief],
+) -> Result<Carved, CarveError> {
     let mut last = None;
     for bed in BED_MM {
         match carve_at(&supports[s], s as u32, views, bed) {
@@ -147,16 +187,28 @@ fn carve_support(supports: &[Support], s: usize, views: &[ViewRelief]) -> Result
     Err(last.unwrap_or_else(|| unreachable!("at least one width is tried")))
 }
 
-fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result<Carved, CarveError> {
-    let failed = |source| CarveError::Boolean { place: support.name.clone(), source };
+fn carve_at(
+    support: &Support,
+    s: u32,
+    views: &[ViewRelief],
+    bed: f64,
+) -> Result<Carved, CarveError> {
+    let failed = |source| CarveError::Boolean {
+        place: support.name.clone(),
+        source,
+    };
     let mut repairs = Repairs::default();
     let mut bare = Boolean::new(&support.mesh).map_err(failed)?;
     let mut blocks = Vec::new();
     for (v, view) in views.iter().enumerate() {
         let cells = cells_on(view, s);
-        let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else { continue };
+        let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else {
+            continue;
+        };
         let back = |q| slab.plane(view.map.plane.direction(q), slab.backing());
-        let made = block(view.map, &cells, &view.relief.depth, back, |c, k| hidden(view.map, c, k));
+        let made = block(view.map, &cells, &view.relief.depth, back, |c, k| {
+            hidden(view.map, c, k)
+        });
         repairs.filled += made.filled;
         repairs.dropped_cells += made.dropped;
         let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
@@ -171,17 +223,28 @@ fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result
         for brace in &braces {
             *block = block.plus(brace).map_err(failed)?;
         }
-        whole = if braces.is_empty() { joined } else { whole.plus(block).map_err(failed)? };
+        whole = if braces.is_empty() {
+            joined
+        } else {
+            whole.plus(block).map_err(failed)?
+        };
         let (kept, crumbs) = whole.without_crumbs(CRUMB_MM3);
         whole = kept;
         repairs.crumbs_mm3 += crumbs;
     }
     for (_, _, block) in &mut blocks {
-        bare = bare.minus(block).map_err(failed)?.without_crumbs(CRUMB_MM3).0;
+        bare = bare
+            .minus(block)
+            .map_err(failed)?
+            .without_crumbs(CRUMB_MM3)
+            .0;
         *block = block.without_crumbs(CRUMB_MM3).0;
     }
     let name = |what: &str| format!("{} ({what})", support.name);
-    let blocks = blocks.iter().filter(|b| !b.2.is_empty()).map(|(v, _, b)| Ok((*v, sound(b, &name(views[*v].name))?)));
+    let blocks = blocks
+        .iter()
+        .filter(|b| !b.2.is_empty())
+        .map(|(v, _, b)| Ok((*v, sound(b, &name(views[*v].name))?)));
     Ok(Carved {
         blocks: blocks.collect::<Result<_, _>>()?,
         whole: sound(&whole, &name("with reliefs"))?,
@@ -192,13 +255,18 @@ fn carve_at(support: &Support, s: u32, views: &[ViewRelief], bed: f64) -> Result
 
 /// Whether a nearer support hides what lies beyond side `k` of a cell.
 fn hidden(map: &ViewMap, c: u32, k: usize) -> bool {
-    let Some(n) = map.neighbours[c as usize][k] else { return false };
+    let Some(n) = map.neighbours[c as usize][k] else {
+        return false;
+    };
     let (here, there) = (&map.cells[c as usize], &map.cells[n as usize]);
     here.support != there.support && there.support_depth < here.support_depth
 }
 
 fn cells_on(view: &ViewRelief, support: u32) -> Vec<u32> {
-    let on = |c: &usize| view.map.cells[*c].support == Some(support) && view.relief.depth[*c].is_some();
-    (0..view.map.cells.len()).filter(on).map(|c| c as u32).collect()
+    let on =
+        |c: &usize| view.map.cells[*c].support == Some(support) && view.relief.depth[*c].is_some();
+    (0..view.map.cells.len())
+        .filter(on)
+        .map(|c| c as u32)
+        .collect()
 }
-

@@ -156,7 +156,12 @@ fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         let Some((axis, reach)) = disc(support) else {
             continue;
         };
-        let text = k.to_string();
+        // As messages name it, short: p7 is 7.
+        let text = support
+            .name
+            .strip_prefix('p')
+            .unwrap_or(&support.name)
+            .to_owned();
         let size = (0.9 * reach).min(3.0 * page.u);
         // Smaller ones could not be read on A4.
         if size < 0.9 * page.u {

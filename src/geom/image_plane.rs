@@ -19,8 +19,17 @@ impl ImagePlane {
     pub fn looking_at(eye: DVec3, target: DVec3) -> Self {
         let forward = (target - eye).normalize();
         let right = forward.cross(DVec3::Z);
-        let right = if right.length() > 1e-9 { right.normalize() } else { DVec3::X };
-        Self { eye, forward, right, up: right.cross(forward) }
+        let right = if right.length() > 1e-9 {
+            right.normalize()
+        } else {
+            DVec3::X
+        };
+        Self {
+            eye,
+            forward,
+            right,
+            up: right.cross(forward),
+        }
     }
 
     /// The un-normalised direction of the ray `q`: its component along `forward` is 1.

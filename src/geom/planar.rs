@@ -23,7 +23,10 @@ pub fn barycentric(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> DVec3 {
 /// Signed area of a simple polygon, positive counter-clockwise.
 pub fn polygon_area(points: &[DVec2]) -> f64 {
     let n = points.len();
-    (0..n).map(|i| points[i].perp_dot(points[(i + 1) % n])).sum::<f64>() / 2.0
+    (0..n)
+        .map(|i| points[i].perp_dot(points[(i + 1) % n]))
+        .sum::<f64>()
+        / 2.0
 }
 
 /// Parameter along `ab` at which it crosses `cd`, both taken as closed segments; `None` if they miss or are parallel.

@@ -43,17 +43,23 @@ fn pairs(mesh: &TriMesh, sides: &[HalfEdge]) -> Vec<(HalfEdge, HalfEdge)> {
     if let [x, y] = sides {
         return vec![(*x, *y)];
     }
-    let (low, high) = (mesh.vertices[sides[0].low as usize], mesh.vertices[sides[0].high as usize]);
+    let (low, high) = (
+        mesh.vertices[sides[0].low as usize],
+        mesh.vertices[sides[0].high as usize],
+    );
     let axis = (high - low).normalize_or_zero();
     let across = axis.any_orthonormal_vector();
     let angle = |h: &HalfEdge| {
-        let apex = mesh.vertices[mesh.faces[h.face as usize][(h.corner as usize + 2) % 3] as usize] - low;
+        let apex =
+            mesh.vertices[mesh.faces[h.face as usize][(h.corner as usize + 2) % 3] as usize] - low;
         apex.dot(axis.cross(across)).atan2(apex.dot(across))
     };
     let mut around: Vec<(f64, HalfEdge)> = sides.iter().map(|h| (angle(h), *h)).collect();
     around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     // Turning about the edge, material begins behind a backward side and ends at a forward one.
-    let Some(start) = around.iter().position(|x| !x.1.forward) else { return Vec::new() };
+    let Some(start) = around.iter().position(|x| !x.1.forward) else {
+        return Vec::new();
+    };
     around.rotate_left(start);
     let mut open: Vec<HalfEdge> = Vec::new();
     let mut found = Vec::new();
@@ -77,7 +83,10 @@ fn split(mesh: &mut TriMesh, fans: &mut DisjointSets, copies: &[(u32, u32)]) {
     }
     let mut members: Vec<(u32, u32)> = Vec::new();
     for c in 0..3 * mesh.faces.len() as u32 {
-        if split.binary_search(&mesh.faces[c as usize / 3][c as usize % 3]).is_ok() {
+        if split
+            .binary_search(&mesh.faces[c as usize / 3][c as usize % 3])
+            .is_ok()
+        {
             members.push((fans.root(c), c));
         }
     }
@@ -89,7 +98,8 @@ fn split(mesh: &mut TriMesh, fans: &mut DisjointSets, copies: &[(u32, u32)]) {
         let moved = mesh.vertices[vertex as usize] - GAP_MM * outwards.normalize_or_zero();
         let new = mesh.vertices.len() as u32;
         mesh.vertices.push(moved.as_vec3().as_dvec3());
-        fan.iter().for_each(|m| faces[m.1 as usize / 3][m.1 as usize % 3] = new);
+        fan.iter()
+            .for_each(|m| faces[m.1 as usize / 3][m.1 as usize % 3] = new);
     }
     mesh.faces = faces;
 }

@@ -26,7 +26,11 @@ pub fn mend(mesh: &TriMesh) -> TriMesh {
     let mut best: Option<(usize, TriMesh)> = None;
     for height in HEIGHTS_MM {
         let everywhere = height == HEIGHTS_MM[0];
-        let trouble = if everywhere { (0..mesh.faces.len() as u32).collect() } else { trouble(&mesh) };
+        let trouble = if everywhere {
+            (0..mesh.faces.len() as u32).collect()
+        } else {
+            trouble(&mesh)
+        };
         if trouble.is_empty() {
             return mesh;
         }
@@ -43,8 +47,13 @@ pub fn mend(mesh: &TriMesh) -> TriMesh {
 
 /// Faces that cut others, their neighbourhoods and faces without area, rising.
 fn trouble(mesh: &TriMesh) -> Vec<u32> {
-    let flat = (0..mesh.faces.len() as u32).filter(|f| mesh.area_vector(*f as usize) == DVec3::ZERO);
-    let mut faces: Vec<u32> = self_intersections(mesh, MAX_PAIRS).into_iter().flatten().chain(flat).collect();
+    let flat =
+        (0..mesh.faces.len() as u32).filter(|f| mesh.area_vector(*f as usize) == DVec3::ZERO);
+    let mut faces: Vec<u32> = self_intersections(mesh, MAX_PAIRS)
+        .into_iter()
+        .flatten()
+        .chain(flat)
+        .collect();
     faces.sort_unstable();
     faces.dedup();
     faces
@@ -78,11 +87,20 @@ impl<'a> Surgery<'a> {
         let mut start: Vec<u32> = if faces.len() == mesh.faces.len() {
             faces
         } else {
-            faces.iter().flat_map(|f| mesh.faces[*f as usize]).flat_map(|v| around[v as usize].iter().copied()).collect()
+            faces
+                .iter()
+                .flat_map(|f| mesh.faces[*f as usize])
+                .flat_map(|v| around[v as usize].iter().copied())
+                .collect()
         };
         start.sort_unstable();
         start.dedup();
-        Self { mesh, around, queue: start.into(), height }
+        Self {
+            mesh,
+            around,
+            queue: start.into(),
+            height,
+        }
     }
 
     fn run(&mut self) {
@@ -97,7 +115,8 @@ impl<'a> Surgery<'a> {
                 return;
             }
             budget -= 1;
-            let _ = self.collapse_sides(f, 2.0) || self.flip(f) || self.collapse_sides(f, LAST_RESORT);
+            let _ =
+                self.collapse_sides(f, 2.0) || self.flip(f) || self.collapse_sides(f, LAST_RESORT);
         }
     }
 
@@ -115,7 +134,11 @@ impl<'a> Surgery<'a> {
 
     fn height_of(&self, face: [u32; 3]) -> f64 {
         let longest = (0..3).map(|k| self.side(face, k)).fold(0.0, f64::max);
-        if longest == 0.0 { 0.0 } else { self.area_vector(face).length() / longest }
+        if longest == 0.0 {
+            0.0
+        } else {
+            self.area_vector(face).length() / longest
+        }
     }
 
     /// Collapses the shortest side, up to `times` the height, that allows it.
@@ -136,7 +159,11 @@ impl<'a> Surgery<'a> {
     }
 
     fn ring(&self, v: u32) -> Vec<u32> {
-        let mut ring: Vec<u32> = self.around[v as usize].iter().flat_map(|f| self.mesh.faces[*f as usize]).filter(|x| *x != v).collect();
+        let mut ring: Vec<u32> = self.around[v as usize]
+            .iter()
+            .flat_map(|f| self.mesh.faces[*f as usize])
+            .filter(|x| *x != v)
+            .collect();
         ring.sort_unstable();
         ring.dedup();
         ring
@@ -145,9 +172,14 @@ impl<'a> Surgery<'a> {
     /// Moves `from` onto `to` if the surface stays a closed manifold and no face that is not a sliver turns over.
     fn collapse(&mut self, from: u32, to: u32) -> bool {
         let (ring, other) = (self.ring(from), self.ring(to));
-        let common = ring.iter().filter(|v| other.binary_search(v).is_ok()).count();
+        let common = ring
+            .iter()
+            .filter(|v| other.binary_search(v).is_ok())
+            .count();
         let faces = self.around[from as usize].clone();
-        let (dying, staying): (Vec<u32>, Vec<u32>) = faces.iter().partition(|f| self.mesh.faces[**f as usize].contains(&to));
+        let (dying, staying): (Vec<u32>, Vec<u32>) = faces
+            .iter()
+            .partition(|f| self.mesh.faces[**f as usize].contains(&to));
         if common != 2 || dying.len() != 2 {
             return false;
         }
@@ -155,7 +187,8 @@ impl<'a> Surgery<'a> {
         let turns = |f: &u32| {
             let face = self.mesh.faces[*f as usize];
             let (before, after) = (self.area_vector(face), self.area_vector(moved(face)));
-            self.height_of(face) > self.height && before.dot(after) <= 0.5 * before.length() * after.length()
+            self.height_of(face) > self.height
+                && before.dot(after) <= 0.5 * before.length() * after.length()
         };
         if staying.iter().any(turns) {
             return false;
@@ -163,7 +196,8 @@ impl<'a> Surgery<'a> {
         for f in dying {
             let gone = self.mesh.faces[f as usize];
             self.mesh.faces[f as usize] = [to; 3];
-            gone.iter().for_each(|v| self.around[*v as usize].retain(|x| *x != f));
+            gone.iter()
+                .for_each(|v| self.around[*v as usize].retain(|x| *x != f));
         }
         for f in staying {
             self.mesh.faces[f as usize] = moved(self.mesh.faces[f as usize]);
@@ -177,21 +211,32 @@ impl<'a> Surgery<'a> {
     /// Swaps the longest side of a cap for the other diagonal, if that raises the lower of the two faces and folds nothing.
     fn flip(&mut self, f: u32) -> bool {
         let face = self.mesh.faces[f as usize];
-        let k = (0..3).max_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b))).unwrap_or(0);
+        let k = (0..3)
+            .max_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b)))
+            .unwrap_or(0);
         let (a, b, v) = (face[k], face[(k + 1) % 3], face[(k + 2) % 3]);
-        let others: Vec<u32> =
-            self.around[a as usize].iter().copied().filter(|x| *x != f && self.mesh.faces[*x as usize].contains(&b)).collect();
+        let others: Vec<u32> = self.around[a as usize]
+            .iter()
+            .copied()
+            .filter(|x| *x != f && self.mesh.faces[*x as usize].contains(&b))
+            .collect();
         let [other] = others[..] else { return false };
         let across = self.mesh.faces[other as usize];
-        let Some(d) = across.into_iter().find(|x| *x != a && *x != b) else { return false };
+        let Some(d) = across.into_iter().find(|x| *x != a && *x != b) else {
+            return false;
+        };
         if d == v || self.ring(v).binary_search(&d).is_ok() {
             return false;
         }
         let (first, second) = ([a, d, v], [d, b, v]);
         let lower = self.height_of(first).min(self.height_of(second));
         let normal = self.area_vector(across);
-        let folds = |face| self.area_vector(face).dot(normal) < 0.0 && self.height_of(across) > self.height;
-        if lower <= self.height_of(face).min(self.height_of(across)) || folds(first) || folds(second) {
+        let folds =
+            |face| self.area_vector(face).dot(normal) < 0.0 && self.height_of(across) > self.height;
+        if lower <= self.height_of(face).min(self.height_of(across))
+            || folds(first)
+            || folds(second)
+        {
             return false;
         }
         self.mesh.faces[f as usize] = first;

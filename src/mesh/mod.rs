@@ -62,20 +62,34 @@ impl TriMesh {
 
     /// Surface area in square millimetres.
     pub fn area(&self) -> f64 {
-        (0..self.faces.len()).map(|f| self.area_vector(f).length() / 2.0).sum()
+        (0..self.faces.len())
+            .map(|f| self.area_vector(f).length() / 2.0)
+            .sum()
     }
 
     /// Smallest and largest corner over all vertices; `None` if there are none.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let first = *self.vertices.first()?;
-        Some(self.vertices.iter().fold((first, first), |(lo, hi), v| (lo.min(*v), hi.max(*v))))
+        Some(
+            self.vertices
+                .iter()
+                .fold((first, first), |(lo, hi), v| (lo.min(*v), hi.max(*v))),
+        )
     }
 
     /// The mesh moved by an affine matrix; turned inside out again if the matrix mirrors.
     pub fn transformed(&self, matrix: DMat4) -> Self {
-        let vertices = self.vertices.iter().map(|v| matrix.transform_point3(*v)).collect();
+        let vertices = self
+            .vertices
+            .iter()
+            .map(|v| matrix.transform_point3(*v))
+            .collect();
         let mirrored = matrix.determinant() < 0.0;
-        let faces = self.faces.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect();
+        let faces = self
+            .faces
+            .iter()
+            .map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] })
+            .collect();
         Self { vertices, faces }
     }
 
@@ -83,6 +97,7 @@ impl TriMesh {
     pub fn append(&mut self, other: &TriMesh) {
         let offset = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
-        self.faces.extend(other.faces.iter().map(|f| f.map(|v| v + offset)));
+        self.faces
+            .extend(other.faces.iter().map(|f| f.map(|v| v + offset)));
     }
 }

@@ -19,7 +19,13 @@ use glam::DVec3;
 const ALPHA: f64 = 1e-9;
 
 /// Depths of the whole mesh.
-pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups: &Groups, orders: &[Order]) -> Result<Depths, SolveError> {
+pub fn depths(
+    options: CurvatureOptions,
+    target: &Target,
+    map: &ViewMap,
+    groups: &Groups,
+    orders: &[Order],
+) -> Result<Depths, SolveError> {
     let n = target.mesh.vertices.len();
     let geometry = FaceGeometry::new(&target.mesh);
     let areas = geometry.vertex_areas(&target.mesh);
@@ -29,7 +35,10 @@ pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups:
     let forms = vertex_forms(target, &geometry, map.plane.eye);
     let weight = |i: usize| if visible[i] { 1.0 } else { options.hidden_weight * options.hidden_weight } / areas[i];
     // Twice the square of a form adds its squared coefficients to the diagonal: the mean scales the program to order one.
-    let trace: f64 = (0..n).filter(|i| used[*i]).map(|i| 2.0 * weight(i) * forms[i].iter().map(|t| t.1.length_squared()).sum::<f64>()).sum();
+    let trace: f64 = (0..n)
+        .filter(|i| used[*i])
+        .map(|i| 2.0 * weight(i) * forms[i].iter().map(|t| t.1.length_squared()).sum::<f64>())
+        .sum();
     let mean = trace / n as f64;
     for i in (0..n).filter(|i| used[*i]) {
         for axis in 0..3 {
@@ -38,7 +47,9 @@ pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups:
         }
     }
     (0..groups.groups.len()).for_each(|g| quadratic.square(n + g, ALPHA));
-    (0..n).filter(|i| !used[*i]).for_each(|i| quadratic.square(i, 1.0));
+    (0..n)
+        .filter(|i| !used[*i])
+        .for_each(|i| quadratic.square(i, 1.0));
     let program = Program {
         variables: n + groups.groups.len(),
         quadratic: quadratic.finish(),
@@ -47,7 +58,11 @@ pub fn depths(options: CurvatureOptions, target: &Target, map: &ViewMap, groups:
     };
     let (u, solved) = solve(&program)?;
     let s: Vec<f64> = (0..n).map(|i| if used[i] { u[i] } else { 1.0 }).collect();
-    Ok(Depths { mu: scales(groups, &s), s, solved })
+    Ok(Depths {
+        mu: scales(groups, &s),
+        s,
+        solved,
+    })
 }
 
 /// Vertices of whose faces turned to the eye at least half is seen, by solid angle. A share rather than the vertex itself,
@@ -65,7 +80,10 @@ fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
             }
         }
     }
-    shares.iter().map(|(seen, whole)| *whole > 0.0 && *seen >= 0.5 * whole).collect()
+    shares
+        .iter()
+        .map(|(seen, whole)| *whole > 0.0 && *seen >= 0.5 * whole)
+        .collect()
 }
 
 /// For every vertex the coefficients (vectors) of `sum of c_ij v_j (s_j - s_i)`: neighbours first, itself last.
@@ -74,7 +92,11 @@ fn vertex_forms(target: &Target, geometry: &FaceGeometry, eye: DVec3) -> Vec<Vec
     let mut sides: Vec<(u32, u32, f64)> = Vec::with_capacity(6 * mesh.faces.len());
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
-            let (i, j, c) = (face[(k + 1) % 3], face[(k + 2) % 3], geometry.cotangents[f][k] / 2.0);
+            let (i, j, c) = (
+                face[(k + 1) % 3],
+                face[(k + 2) % 3],
+                geometry.cotangents[f][k] / 2.0,
+            );
             sides.extend([(i, j, c), (j, i, c)]);
         }
     }
@@ -93,7 +115,12 @@ fn vertex_forms(target: &Target, geometry: &FaceGeometry, eye: DVec3) -> Vec<Vec
 }
 
 /// One equality a block: the area-weighted mean of `s` is 1.
-fn gauge(target: &Target, groups: &Groups, orders: &[Order], areas: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
+fn gauge(
+    target: &Target,
+    groups: &Groups,
+    orders: &[Order],
+    areas: &[f64],
+) -> Vec<(Vec<(usize, f64)>, f64)> {
     let n = areas.len();
     let mut blocks = DisjointSets::new(n + groups.groups.len());
     for face in &target.mesh.faces {
@@ -106,7 +133,10 @@ fn gauge(target: &Target, groups: &Groups, orders: &[Order], areas: &[f64]) -> V
     for order in orders {
         blocks.join(order.front.vertices[0], order.back.vertices[0]);
     }
-    let mut members: Vec<(u32, usize)> = (0..n).filter(|i| areas[*i] > 0.0).map(|i| (blocks.root(i as u32), i)).collect();
+    let mut members: Vec<(u32, usize)> = (0..n)
+        .filter(|i| areas[*i] > 0.0)
+        .map(|i| (blocks.root(i as u32), i))
+        .collect();
     members.sort_unstable();
     let block = |b: &[(u32, usize)]| {
         let total: f64 = b.iter().map(|m| areas[m.1]).sum();
@@ -124,13 +154,33 @@ fn rows(n: usize, groups: &Groups, orders: &[Order]) -> Vec<Row> {
         let mut near: Vec<(usize, f64)> = far.iter().map(|(j, v)| (*j, -v)).collect();
         far.push((mu, -bound.upper));
         near.push((mu, bound.lower));
-        rows.push(Row { kind: RowKind::Far(i as u32), terms: far, limit: 0.0 });
-        rows.push(Row { kind: RowKind::Near(i as u32), terms: near, limit: 0.0 });
+        rows.push(Row {
+            kind: RowKind::Far(i as u32),
+            terms: far,
+            limit: 0.0,
+        });
+        rows.push(Row {
+            kind: RowKind::Near(i as u32),
+            terms: near,
+            limit: 0.0,
+        });
     }
-    for (i, order) in orders.iter().enumerate().filter(|(_, o)| o.front_group == o.back_group) {
-        let mut terms: Vec<(usize, f64)> = order.front.terms().map(|(j, v)| (j, v * order.ratio)).collect();
+    for (i, order) in orders
+        .iter()
+        .enumerate()
+        .filter(|(_, o)| o.front_group == o.back_group)
+    {
+        let mut terms: Vec<(usize, f64)> = order
+            .front
+            .terms()
+            .map(|(j, v)| (j, v * order.ratio))
+            .collect();
         terms.extend(order.back.terms().map(|(j, v)| (j, -v)));
-        rows.push(Row { kind: RowKind::Order(i as u32), terms, limit: 0.0 });
+        rows.push(Row {
+            kind: RowKind::Order(i as u32),
+            terms,
+            limit: 0.0,
+        });
     }
     rows
 }

@@ -66,12 +66,22 @@ pub struct Depths {
 ///
 /// # Errors
 /// If the program is infeasible or the solver gives up; the error names the row that stands in the way.
-pub fn depths(energy: Energy, target: &Target, map: &ViewMap, field: &SupportField, groups: &Groups) -> Result<Depths, SolveError> {
+pub fn depths(
+    energy: Energy,
+    target: &Target,
+    map: &ViewMap,
+    field: &SupportField,
+    groups: &Groups,
+) -> Result<Depths, SolveError> {
     let ordered = match energy {
         Energy::Normal(o) => o.ordering,
         Energy::Curvature(o) => o.ordering,
     };
-    let orders = if ordered { orders(target, map, field, groups) } else { Vec::new() };
+    let orders = if ordered {
+        orders(target, map, field, groups)
+    } else {
+        Vec::new()
+    };
     match energy {
         Energy::Normal(options) => normal::depths(options, target, map, groups, &orders),
         Energy::Curvature(options) => curvature::depths(options, target, map, groups, &orders),

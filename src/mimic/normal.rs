@@ -19,7 +19,13 @@ const LEAST_SEEN: f64 = 0.02;
 const REGULARISER: f64 = 1e-8;
 
 /// Depths of the visible sub-mesh.
-pub fn depths(options: NormalOptions, target: &Target, map: &ViewMap, groups: &Groups, orders: &[Order]) -> Result<Depths, SolveError> {
+pub fn depths(
+    options: NormalOptions,
+    target: &Target,
+    map: &ViewMap,
+    groups: &Groups,
+    orders: &[Order],
+) -> Result<Depths, SolveError> {
     let seen = seen_solid_angles(target, map);
     let index = Variables::new(target, &seen);
     let unit = typical_width(groups);
@@ -34,8 +40,16 @@ pub fn depths(options: NormalOptions, target: &Target, map: &ViewMap, groups: &G
         rows: rows(groups, orders, &index, unit),
     };
     let (u, solved) = solve(&program)?;
-    let s: Vec<f64> = index.of_vertex.iter().map(|i| i.map_or(1.0, |i| (u[i as usize] * unit).exp())).collect();
-    Ok(Depths { mu: scales(groups, &s), s, solved })
+    let s: Vec<f64> = index
+        .of_vertex
+        .iter()
+        .map(|i| i.map_or(1.0, |i| (u[i as usize] * unit).exp()))
+        .collect();
+    Ok(Depths {
+        mu: scales(groups, &s),
+        s,
+        solved,
+    })
 }
 
 /// Where each vertex's `x` stands among the unknowns; vertices of unseen faces have none.
@@ -48,7 +62,13 @@ impl Variables {
     fn new(target: &Target, seen: &[f64]) -> Self {
         let mut of_vertex = vec![None; target.mesh.vertices.len()];
         let mut count = 0;
-        for (face, _) in target.mesh.faces.iter().zip(seen).filter(|(_, s)| **s > 0.0) {
+        for (face, _) in target
+            .mesh
+            .faces
+            .iter()
+            .zip(seen)
+            .filter(|(_, s)| **s > 0.0)
+        {
             for v in face {
                 of_vertex[*v as usize].get_or_insert_with(|| {
                     count += 1;
@@ -56,27 +76,54 @@ impl Variables {
                 });
             }
         }
-        Self { of_vertex, count: count as usize }
+        Self {
+            of_vertex,
+            count: count as usize,
+        }
     }
 
     /// Terms of `factor * sum of weight * x` over the anchor's vertices.
     fn terms(&self, anchor: &Anchor, factor: f64) -> Vec<(usize, f64)> {
-        anchor.terms().filter_map(|(v, w)| Some((self.of_vertex[v]? as usize, factor * w))).collect()
+        anchor
+            .terms()
+            .filter_map(|(v, w)| Some((self.of_vertex[v]? as usize, factor * w)))
+            .collect()
     }
 }
 
 /// The median width of the bounds in log depth: the unit of all unknowns, so that the solver's tolerances mean the same in
 /// every scene.
 fn typical_width(groups: &Groups) -> f64 {
-    let mut widths: Vec<f64> = groups.bounds.iter().map(|b| (b.upper / b.lower).ln()).collect();
+    let mut widths: Vec<f64> = groups
+        .bounds
+        .iter()
+        .map(|b| (b.upper / b.lower).ln())
+        .collect();
     widths.sort_by(f64::total_cmp);
-    widths.get(widths.len() / 2).copied().filter(|w| *w > 0.0).unwrap_or(1.0)
+    widths
+        .get(widths.len() / 2)
+        .copied()
+        .filter(|w| *w > 0.0)
+        .unwrap_or(1.0)
 }
 
-fn add_faces(quadratic: &mut Quadratic, weight: FaceWeight, target: &Target, map: &ViewMap, seen: &[f64], index: &Variables) {
+fn add_faces(
+    quadratic: &mut Quadratic,
+    weight: FaceWeight,
+    target: &Target,
+    map: &ViewMap,
+    seen: &[f64],
+    index: &Variables,
+) {
     let geometry = FaceGeometry::new(&target.mesh);
     let eye = map.plane.eye;
-    for (f, face) in target.mesh.faces.iter().enumerate().filter(|(f, _)| seen[*f] > 0.0) {
+    for (f, face) in target
+        .mesh
+        .faces
+        .iter()
+        .enumerate()
+        .filter(|(f, _)| seen[*f] > 0.0)
+    {
         let [a, b, c] = target.mesh.corners(f).map(|p| p - eye);
         let h = target.mesh.normal(f).dot(a).abs();
         let density = match weight {
@@ -87,8 +134,13 @@ fn add_faces(quadratic: &mut Quadratic, weight: FaceWeight, target: &Target, map
             }
         };
         for k in 0..3 {
-            let ends = [face[(k + 1) % 3], face[(k + 2) % 3]].map(|v| index.of_vertex[v as usize].expect("corners of seen faces take part"));
-            quadratic.difference(ends[0] as usize, ends[1] as usize, density * h * h * geometry.cotangents[f][k] / 2.0);
+            let ends = [face[(k + 1) % 3], face[(k + 2) % 3]]
+                .map(|v| index.of_vertex[v as usize].expect("corners of seen faces take part"));
+            quadratic.difference(
+                ends[0] as usize,
+                ends[1] as usize,
+                density * h * h * geometry.cotangents[f][k] / 2.0,
+            );
         }
     }
 }
@@ -96,7 +148,9 @@ fn add_faces(quadratic: &mut Quadratic, weight: FaceWeight, target: &Target, map
 /// Scaled to a mean diagonal of 1, with the regulariser on every unknown.
 fn regularised(energy: sprs::CsMat<f64>, mean: f64) -> sprs::CsMat<f64> {
     let mut triplets = sprs::TriMat::new((energy.rows(), energy.cols()));
-    energy.iter().for_each(|(v, (i, j))| triplets.add_triplet(i, j, v / mean));
+    energy
+        .iter()
+        .for_each(|(v, (i, j))| triplets.add_triplet(i, j, v / mean));
     (0..energy.rows()).for_each(|i| triplets.add_triplet(i, i, REGULARISER));
     triplets.to_csc()
 }
@@ -108,8 +162,16 @@ fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64) -> Vec<
         let mut far = index.terms(&bound.anchor, 1.0);
         far.push((m(bound.group), -1.0));
         let near = far.iter().map(|(j, v)| (*j, -v)).collect();
-        rows.push(Row { kind: RowKind::Far(i as u32), terms: far, limit: bound.upper.ln() / unit });
-        rows.push(Row { kind: RowKind::Near(i as u32), terms: near, limit: -bound.lower.ln() / unit });
+        rows.push(Row {
+            kind: RowKind::Far(i as u32),
+            terms: far,
+            limit: bound.upper.ln() / unit,
+        });
+        rows.push(Row {
+            kind: RowKind::Near(i as u32),
+            terms: near,
+            limit: -bound.lower.ln() / unit,
+        });
     }
     for (i, order) in orders.iter().enumerate() {
         let mut terms = index.terms(&order.front, 1.0);
@@ -117,7 +179,11 @@ fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64) -> Vec<
         if order.front_group != order.back_group {
             terms.extend([(m(order.front_group), -1.0), (m(order.back_group), 1.0)]);
         }
-        rows.push(Row { kind: RowKind::Order(i as u32), terms, limit: -order.ratio.ln() / unit });
+        rows.push(Row {
+            kind: RowKind::Order(i as u32),
+            terms,
+            limit: -order.ratio.ln() / unit,
+        });
     }
     rows
 }

@@ -35,21 +35,53 @@ pub fn orders(target: &Target, map: &ViewMap, field: &SupportField, groups: &Gro
     for v in vertices {
         let q = target.image[v as usize];
         let direction = map.plane.direction(q);
-        let Some((support, _)) = field.first_hit(map.plane.eye, direction) else { continue };
-        let own = incident[v as usize].iter().find_map(|f| lookup.get(*f, support));
-        let (Some(own), depth) = (own, target.depth[v as usize]) else { continue };
-        let here = Anchor { vertices: [v; 3], weights: [1.0, 0.0, 0.0] };
+        let Some((support, _)) = field.first_hit(map.plane.eye, direction) else {
+            continue;
+        };
+        let own = incident[v as usize]
+            .iter()
+            .find_map(|f| lookup.get(*f, support));
+        let (Some(own), depth) = (own, target.depth[v as usize]) else {
+            continue;
+        };
+        let here = Anchor {
+            vertices: [v; 3],
+            weights: [1.0, 0.0, 0.0],
+        };
         let hits = bvh.all_hits(map.plane.eye, direction);
-        let others = hits.iter().map(|h| (faces[h.face], h.t)).filter(|(f, _)| !target.mesh.faces[*f as usize].contains(&v));
+        let others = hits
+            .iter()
+            .map(|h| (faces[h.face], h.t))
+            .filter(|(f, _)| !target.mesh.faces[*f as usize].contains(&v));
         let apart = APART * depth;
-        let nearest = |(f, t): (u32, f64)| Some((anchor(target, f as usize, q).0, lookup.get(f, support)?, t));
-        let before = others.clone().filter(|h| h.1 < depth - apart).last().and_then(nearest);
-        let behind = others.clone().find(|h| h.1 > depth + apart).and_then(nearest);
+        let nearest = |(f, t): (u32, f64)| {
+            Some((anchor(target, f as usize, q).0, lookup.get(f, support)?, t))
+        };
+        let before = others
+            .clone()
+            .rfind(|h| h.1 < depth - apart)
+            .and_then(nearest);
+        let behind = others
+            .clone()
+            .find(|h| h.1 > depth + apart)
+            .and_then(nearest);
         if let Some((front, front_group, t)) = before {
-            orders.push(Order { front, front_group, back: here, back_group: own, ratio: t / depth });
+            orders.push(Order {
+                front,
+                front_group,
+                back: here,
+                back_group: own,
+                ratio: t / depth,
+            });
         }
         if let Some((back, back_group, t)) = behind {
-            orders.push(Order { front: here, front_group: own, back, back_group, ratio: depth / t });
+            orders.push(Order {
+                front: here,
+                front_group: own,
+                back,
+                back_group,
+                ratio: depth / t,
+            });
         }
     }
     orders
@@ -60,14 +92,24 @@ fn seen_sheet(target: &Target, map: &ViewMap) -> (TriMesh, Vec<u32>) {
     let mut faces: Vec<u32> = map.cells.iter().filter_map(|c| c.face).collect();
     faces.sort_unstable();
     faces.dedup();
-    let sheet = faces.iter().map(|f| target.mesh.faces[*f as usize]).collect();
-    (TriMesh { vertices: target.mesh.vertices.clone(), faces: sheet }, faces)
+    let sheet = faces
+        .iter()
+        .map(|f| target.mesh.faces[*f as usize])
+        .collect();
+    (
+        TriMesh {
+            vertices: target.mesh.vertices.clone(),
+            faces: sheet,
+        },
+        faces,
+    )
 }
 
 fn incident_faces(sheet: &TriMesh, faces: &[u32], vertices: usize) -> Vec<Vec<u32>> {
     let mut incident = vec![Vec::new(); vertices];
     for (i, face) in sheet.faces.iter().enumerate() {
-        face.iter().for_each(|v| incident[*v as usize].push(faces[i]));
+        face.iter()
+            .for_each(|v| incident[*v as usize].push(faces[i]));
     }
     incident
 }
@@ -80,7 +122,9 @@ struct FaceGroups {
 
 impl FaceGroups {
     fn new(map: &ViewMap, groups: &Groups) -> Self {
-        let entry = |(c, cell): (usize, &crate::viewmap::Cell)| Some((cell.face?, cell.support?, groups.of_cell[c]?));
+        let entry = |(c, cell): (usize, &crate::viewmap::Cell)| {
+            Some((cell.face?, cell.support?, groups.of_cell[c]?))
+        };
         let mut entries: Vec<_> = map.cells.iter().enumerate().filter_map(entry).collect();
         entries.sort_unstable();
         entries.dedup();
@@ -88,7 +132,12 @@ impl FaceGroups {
     }
 
     fn get(&self, face: u32, support: u32) -> Option<u32> {
-        let i = self.entries.partition_point(|e| (e.0, e.1) < (face, support));
-        self.entries.get(i).filter(|e| (e.0, e.1) == (face, support)).map(|e| e.2)
+        let i = self
+            .entries
+            .partition_point(|e| (e.0, e.1) < (face, support));
+        self.entries
+            .get(i)
+            .filter(|e| (e.0, e.1) == (face, support))
+            .map(|e| e.2)
     }
 }

@@ -39,7 +39,9 @@ pub struct Quadratic {
 
 impl Quadratic {
     pub fn new(variables: usize) -> Self {
-        Self { triplets: TriMat::new((variables, variables)) }
+        Self {
+            triplets: TriMat::new((variables, variables)),
+        }
     }
 
     /// Adds `weight * (u_i - u_j)^2`.
@@ -59,7 +61,8 @@ impl Quadratic {
         for (n, &(i, a)) in terms.iter().enumerate() {
             self.square(i, weight * a * a);
             for &(j, b) in &terms[n + 1..] {
-                self.triplets.add_triplet(i.min(j), i.max(j), 2.0 * weight * a * b);
+                self.triplets
+                    .add_triplet(i.min(j), i.max(j), 2.0 * weight * a * b);
             }
         }
     }
@@ -72,6 +75,10 @@ impl Quadratic {
 
 /// Mean of the diagonal of the first `n` variables: the scale regularisers are relative to.
 pub fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
-    let sum: f64 = quadratic.iter().filter(|(_, (i, j))| i == j && *i < n).map(|(v, _)| v).sum();
+    let sum: f64 = quadratic
+        .iter()
+        .filter(|(_, (i, j))| i == j && *i < n)
+        .map(|(v, _)| v)
+        .sum();
     sum / n.max(1) as f64
 }

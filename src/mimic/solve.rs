@@ -2,7 +2,9 @@
 
 use super::program::{Program, RowKind};
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
+use clarabel::solver::{
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+};
 use sprs::{CsMat, TriMat};
 
 /// More iterations than any program met so far needed (15-60).
@@ -37,7 +39,10 @@ pub enum SolveError {
 pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
     let p = csc(&program.quadratic);
     let (a, b) = constraints(program);
-    let cones = [ZeroConeT(program.equalities.len()), NonnegativeConeT(program.rows.len())];
+    let cones = [
+        ZeroConeT(program.equalities.len()),
+        NonnegativeConeT(program.rows.len()),
+    ];
     let settings = DefaultSettings {
         verbose: false,
         max_iter: MAX_ITERATIONS,
@@ -47,23 +52,32 @@ pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
         ..DefaultSettings::default()
     };
     let zero = vec![0.0; program.variables];
-    let mut solver = DefaultSolver::new(&p, &zero, &a, &b, &cones, settings).map_err(|e| SolveError::Unsolved(e.to_string()))?;
+    let mut solver = DefaultSolver::new(&p, &zero, &a, &b, &cones, settings)
+        .map_err(|e| SolveError::Unsolved(e.to_string()))?;
     solver.solve();
     let (solution, info) = (&solver.solution, &solver.info);
     let multipliers = &solution.z[program.equalities.len()..];
     match solution.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {}
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
-            let worst = (0..multipliers.len()).max_by(|i, j| multipliers[*i].abs().total_cmp(&multipliers[*j].abs()));
+            let worst = (0..multipliers.len())
+                .max_by(|i, j| multipliers[*i].abs().total_cmp(&multipliers[*j].abs()));
             return Err(SolveError::Infeasible(worst.map(|i| program.rows[i].kind)));
         }
-        other => return Err(SolveError::Unsolved(format!("{other:?} after {} iterations", solution.iterations))),
+        other => {
+            return Err(SolveError::Unsolved(format!(
+                "{other:?} after {} iterations",
+                solution.iterations
+            )));
+        }
     }
     let slacks = &solution.s[program.equalities.len()..];
     let solved = Solved {
         variables: program.variables,
         rows: program.rows.len(),
-        active: (0..slacks.len()).filter(|i| multipliers[*i] > slacks[*i]).count(),
+        active: (0..slacks.len())
+            .filter(|i| multipliers[*i] > slacks[*i])
+            .count(),
         iterations: solution.iterations,
         objective: solution.obj_val,
         primal_residual: solution.r_prim,
@@ -77,11 +91,22 @@ pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
 fn constraints(program: &Program) -> (CscMatrix<f64>, Vec<f64>) {
     let height = program.equalities.len() + program.rows.len();
     let mut triplets = TriMat::new((height, program.variables));
-    let lines = program.equalities.iter().map(|(t, _)| t).chain(program.rows.iter().map(|r| &r.terms));
+    let lines = program
+        .equalities
+        .iter()
+        .map(|(t, _)| t)
+        .chain(program.rows.iter().map(|r| &r.terms));
     for (i, terms) in lines.enumerate() {
-        terms.iter().for_each(|&(j, v)| triplets.add_triplet(i, j, v));
+        terms
+            .iter()
+            .for_each(|&(j, v)| triplets.add_triplet(i, j, v));
     }
-    let b = program.equalities.iter().map(|(_, v)| *v).chain(program.rows.iter().map(|r| r.limit)).collect();
+    let b = program
+        .equalities
+        .iter()
+        .map(|(_, v)| *v)
+        .chain(program.rows.iter().map(|r| r.limit))
+        .collect();
     (csc(&triplets.to_csc()), b)
 }
 

@@ -42,7 +42,11 @@ pub fn block(
     back: impl Fn(DVec2) -> f64,
     hidden: impl Fn(u32, usize) -> bool,
 ) -> Block {
-    let mut kept: Vec<u32> = cells.iter().copied().filter(|c| depth[*c as usize].is_some()).collect();
+    let mut kept: Vec<u32> = cells
+        .iter()
+        .copied()
+        .filter(|c| depth[*c as usize].is_some())
+        .collect();
     let total = kept.len();
     loop {
         let mut field = Field::new(map, &kept, depth);
@@ -50,7 +54,11 @@ pub fn block(
         if stuck.is_empty() {
             let filled = field.settle();
             field.lap(&hidden);
-            return Block { mesh: field.solid(map, back), filled, dropped: total - kept.len() };
+            return Block {
+                mesh: field.solid(map, back),
+                filled,
+                dropped: total - kept.len(),
+            };
         }
         kept.retain(|c| stuck.binary_search(c).is_err());
     }
@@ -80,11 +88,27 @@ struct Field {
 impl Field {
     fn new(map: &ViewMap, cells: &[u32], depth: &[Option<[f64; 3]>]) -> Self {
         let local = |c: u32| cells.binary_search(&c).ok().map(|i| i as u32);
-        let neighbours = cells.iter().map(|c| map.neighbours[*c as usize].map(|n| n.and_then(local))).collect();
-        let points: Vec<[u32; 3]> = cells.iter().map(|c| map.cells[*c as usize].corners).collect();
-        let depth = cells.iter().map(|c| depth[*c as usize].expect("only cells with depths are kept")).collect();
+        let neighbours = cells
+            .iter()
+            .map(|c| map.neighbours[*c as usize].map(|n| n.and_then(local)))
+            .collect();
+        let points: Vec<[u32; 3]> = cells
+            .iter()
+            .map(|c| map.cells[*c as usize].corners)
+            .collect();
+        let depth = cells
+            .iter()
+            .map(|c| depth[*c as usize].expect("only cells with depths are kept"))
+            .collect();
         let fan_of = vec![[u32::MAX; 3]; cells.len()];
-        let mut field = Self { cells: cells.to_vec(), points, depth, neighbours, fans: Vec::new(), fan_of };
+        let mut field = Self {
+            cells: cells.to_vec(),
+            points,
+            depth,
+            neighbours,
+            fans: Vec::new(),
+            fan_of,
+        };
         field.gather_fans(map);
         field
     }
@@ -93,7 +117,9 @@ impl Field {
     fn turn(&self, (c, k): Corner, side: u8) -> Option<Corner> {
         let next = self.neighbours[c as usize][((k + side) % 3) as usize]?;
         let point = self.points[c as usize][k as usize];
-        let k = self.points[next as usize].iter().position(|p| *p == point)?;
+        let k = self.points[next as usize]
+            .iter()
+            .position(|p| *p == point)?;
         Some((next, k as u8))
     }
 
@@ -110,11 +136,16 @@ impl Field {
                 let closed = self.turn(first, 0).is_some();
                 let start = if closed { (c, k) } else { first };
                 let mut corners = vec![start];
-                while let Some(next) = self.turn(corners[corners.len() - 1], 2).filter(|n| *n != start) {
+                while let Some(next) = self
+                    .turn(corners[corners.len() - 1], 2)
+                    .filter(|n| *n != start)
+                {
                     corners.push(next);
                 }
                 let id = self.fans.len() as u32;
-                corners.iter().for_each(|(c, k)| self.fan_of[*c as usize][*k as usize] = id);
+                corners
+                    .iter()
+                    .for_each(|(c, k)| self.fan_of[*c as usize][*k as usize] = id);
                 let q = map.points[self.points[c as usize][k as usize] as usize];
                 self.fans.push(Fan { q, corners, closed });
             }
@@ -123,16 +154,28 @@ impl Field {
 
     /// Moves all but the widest fan of each point a little inwards. Gives the map cells of fans that cannot move, rising.
     fn pull_apart(&mut self, map: &ViewMap, pull_mm: f64) -> Vec<u32> {
-        let point_of = |fan: &Fan| self.points[fan.corners[0].0 as usize][fan.corners[0].1 as usize];
-        let mut by_point: Vec<(u32, std::cmp::Reverse<usize>, usize)> =
-            self.fans.iter().enumerate().map(|(i, f)| (point_of(f), std::cmp::Reverse(f.corners.len()), i)).collect();
+        let point_of =
+            |fan: &Fan| self.points[fan.corners[0].0 as usize][fan.corners[0].1 as usize];
+        let mut by_point: Vec<(u32, std::cmp::Reverse<usize>, usize)> = self
+            .fans
+            .iter()
+            .enumerate()
+            .map(|(i, f)| (point_of(f), std::cmp::Reverse(f.corners.len()), i))
+            .collect();
         by_point.sort_unstable();
-        let touching: Vec<usize> =
-            by_point.chunk_by(|a, b| a.0 == b.0).flat_map(|fans| fans[1..].iter().map(|f| f.2)).collect();
+        let touching: Vec<usize> = by_point
+            .chunk_by(|a, b| a.0 == b.0)
+            .flat_map(|fans| fans[1..].iter().map(|f| f.2))
+            .collect();
         let mut stuck = Vec::new();
         for f in touching {
             if !self.pull(map, f, pull_mm) {
-                stuck.extend(self.fans[f].corners.iter().map(|(c, _)| self.cells[*c as usize]));
+                stuck.extend(
+                    self.fans[f]
+                        .corners
+                        .iter()
+                        .map(|(c, _)| self.cells[*c as usize]),
+                );
             }
         }
         stuck.sort_unstable();
@@ -143,7 +186,11 @@ impl Field {
     fn pull(&mut self, map: &ViewMap, f: usize, pull_mm: f64) -> bool {
         let home = self.fans[f].q;
         let centre = |(c, _): &Corner| map.points_mean(self.points[*c as usize]);
-        let inwards: DVec2 = self.fans[f].corners.iter().map(|c| (centre(c) - home).normalize_or_zero()).sum();
+        let inwards: DVec2 = self.fans[f]
+            .corners
+            .iter()
+            .map(|c| (centre(c) - home).normalize_or_zero())
+            .sum();
         self.shift(f, inwards, pull_mm)
     }
 
@@ -161,13 +208,22 @@ impl Field {
                 changed |= self.uncross(c);
             }
             if !changed {
-                return before.iter().flatten().zip(self.depth.iter().flatten()).filter(|(a, b)| a != b).count();
+                return before
+                    .iter()
+                    .flatten()
+                    .zip(self.depth.iter().flatten())
+                    .filter(|(a, b)| a != b)
+                    .count();
             }
         }
     }
 
     fn fan_depths(&self, f: usize) -> Vec<f64> {
-        self.fans[f].corners.iter().map(|(c, k)| self.depth[*c as usize][*k as usize]).collect()
+        self.fans[f]
+            .corners
+            .iter()
+            .map(|(c, k)| self.depth[*c as usize][*k as usize])
+            .collect()
     }
 
     fn set_fan_depths(&mut self, f: usize, depths: &[f64]) -> bool {
@@ -199,10 +255,20 @@ impl Field {
         let mut depths = self.fan_depths(f);
         let n = depths.len();
         let by_depth = |a: &usize, b: &usize| depths[*a].total_cmp(&depths[*b]);
-        let start = if self.fans[f].closed { (0..n).max_by(by_depth).unwrap_or(0) } else { 0 };
-        let limit = if self.fans[f].closed { depths[start] } else { f64::INFINITY };
+        let start = if self.fans[f].closed {
+            (0..n).max_by(by_depth).unwrap_or(0)
+        } else {
+            0
+        };
+        let limit = if self.fans[f].closed {
+            depths[start]
+        } else {
+            f64::INFINITY
+        };
         depths.rotate_left(start);
-        let valley = (0..n).min_by(|a, b| depths[*a].total_cmp(&depths[*b])).unwrap_or(0);
+        let valley = (0..n)
+            .min_by(|a, b| depths[*a].total_cmp(&depths[*b]))
+            .unwrap_or(0);
         let mut run = limit;
         for d in &mut depths[..valley] {
             run = run.min(*d);
@@ -221,14 +287,25 @@ impl Field {
     fn uncross(&mut self, c: usize) -> bool {
         let mut changed = false;
         for k in 0..3 {
-            let Some(n) = self.neighbours[c][k].filter(|n| *n as usize > c) else { continue };
+            let Some(n) = self.neighbours[c][k].filter(|n| *n as usize > c) else {
+                continue;
+            };
             let n = n as usize;
             let [u, v] = [self.points[c][k], self.points[c][(k + 1) % 3]];
-            let at = |p: u32| self.points[n].iter().position(|x| *x == p).expect("neighbours share both points of a side");
+            let at = |p: u32| {
+                self.points[n]
+                    .iter()
+                    .position(|x| *x == p)
+                    .expect("neighbours share both points of a side")
+            };
             let ends = [(k, at(u)), ((k + 1) % 3, at(v))];
             let gaps = ends.map(|(i, j)| self.depth[c][i] - self.depth[n][j]);
             if gaps[0] * gaps[1] < 0.0 {
-                let (i, j) = if gaps[0].abs() < gaps[1].abs() { ends[0] } else { ends[1] };
+                let (i, j) = if gaps[0].abs() < gaps[1].abs() {
+                    ends[0]
+                } else {
+                    ends[1]
+                };
                 let near = self.depth[c][i].min(self.depth[n][j]);
                 self.depth[c][i] = near;
                 self.depth[n][j] = near;
@@ -242,11 +319,14 @@ impl Field {
     fn lap(&mut self, hidden: &impl Fn(u32, usize) -> bool) {
         let mut outwards: BTreeMap<u32, DVec2> = BTreeMap::new();
         for c in 0..self.cells.len() {
-            for k in (0..3).filter(|k| self.neighbours[c][*k].is_none() && hidden(self.cells[c], *k)) {
+            for k in
+                (0..3).filter(|k| self.neighbours[c][*k].is_none() && hidden(self.cells[c], *k))
+            {
                 let ends = [self.fan_of[c][k], self.fan_of[c][(k + 1) % 3]];
                 let [u, v] = ends.map(|f| self.fans[f as usize].q);
                 // Longer sides weigh more, so that kinks too small to see do not turn the direction.
-                ends.iter().for_each(|f| *outwards.entry(*f).or_default() -= (v - u).perp());
+                ends.iter()
+                    .for_each(|f| *outwards.entry(*f).or_default() -= (v - u).perp());
             }
         }
         for (f, direction) in outwards {
@@ -263,7 +343,8 @@ impl Field {
         for share in [1.0, 0.5, 0.25] {
             let moved = home + direction.normalize_or_zero() * length * share;
             let upright = |&(c, k): &Corner| {
-                let [a, b] = [1, 2].map(|j| self.fans[self.fan_of[c as usize][((k + j) % 3) as usize] as usize].q);
+                let [a, b] = [1, 2]
+                    .map(|j| self.fans[self.fan_of[c as usize][((k + j) % 3) as usize] as usize].q);
                 orient(moved, a, b) > 0.0
             };
             if moved != home && corners.iter().all(upright) {
@@ -276,10 +357,13 @@ impl Field {
 
     fn solid(&self, map: &ViewMap, back: impl Fn(DVec2) -> f64) -> TriMesh {
         let mut mesh = TriMesh::default();
-        let columns: Vec<Column> = (0..self.fans.len()).map(|f| self.column(map, f, &back, &mut mesh)).collect();
+        let columns: Vec<Column> = (0..self.fans.len())
+            .map(|f| self.column(map, f, &back, &mut mesh))
+            .collect();
         let column = |c: usize, k: usize| &columns[self.fan_of[c][k] as usize];
         for c in 0..self.cells.len() {
-            mesh.faces.push([0, 1, 2].map(|k| column(c, k).at(self.depth[c][k])));
+            mesh.faces
+                .push([0, 1, 2].map(|k| column(c, k).at(self.depth[c][k])));
             mesh.faces.push([0, 2, 1].map(|k| column(c, k).back));
             for k in 0..3 {
                 let (u, v) = (column(c, k), column(c, (k + 1) % 3));
@@ -287,8 +371,16 @@ impl Field {
                 match self.neighbours[c][k] {
                     None => wall(&mut mesh.faces, &v.down(dv), &u.down(du)),
                     Some(n) if n as usize > c => {
-                        let at = |f: u32| self.fan_of[n as usize].iter().position(|x| *x == f).expect("neighbours share both fans of a side");
-                        let (eu, ev) = (self.depth[n as usize][at(self.fan_of[c][k])], self.depth[n as usize][at(self.fan_of[c][(k + 1) % 3])]);
+                        let at = |f: u32| {
+                            self.fan_of[n as usize]
+                                .iter()
+                                .position(|x| *x == f)
+                                .expect("neighbours share both fans of a side")
+                        };
+                        let (eu, ev) = (
+                            self.depth[n as usize][at(self.fan_of[c][k])],
+                            self.depth[n as usize][at(self.fan_of[c][(k + 1) % 3])],
+                        );
                         wall(&mut mesh.faces, &v.between(dv, ev), &u.between(du, eu));
                     }
                     Some(_) => {}
@@ -299,7 +391,13 @@ impl Field {
     }
 
     /// Makes the vertices on one ray.
-    fn column(&self, map: &ViewMap, f: usize, back: &impl Fn(DVec2) -> f64, mesh: &mut TriMesh) -> Column {
+    fn column(
+        &self,
+        map: &ViewMap,
+        f: usize,
+        back: &impl Fn(DVec2) -> f64,
+        mesh: &mut TriMesh,
+    ) -> Column {
         let q = self.fans[f].q;
         let mut levels = self.fan_depths(f);
         levels.sort_by(f64::total_cmp);
@@ -309,7 +407,10 @@ impl Field {
             mesh.vertices.len() as u32 - 1
         };
         let back = vertex(back(q));
-        Column { levels: levels.into_iter().map(|z| (z, vertex(z))).collect(), back }
+        Column {
+            levels: levels.into_iter().map(|z| (z, vertex(z))).collect(),
+            back,
+        }
     }
 }
 
@@ -321,18 +422,32 @@ struct Column {
 
 impl Column {
     fn at(&self, depth: f64) -> u32 {
-        self.levels.iter().find(|l| l.0 == depth).expect("every depth of a fan is a level of its column").1
+        self.levels
+            .iter()
+            .find(|l| l.0 == depth)
+            .expect("every depth of a fan is a level of its column")
+            .1
     }
 
     /// From a depth to the back.
     fn down(&self, depth: f64) -> Vec<u32> {
-        self.levels.iter().filter(|l| l.0 >= depth).map(|l| l.1).chain([self.back]).collect()
+        self.levels
+            .iter()
+            .filter(|l| l.0 >= depth)
+            .map(|l| l.1)
+            .chain([self.back])
+            .collect()
     }
 
     /// From one depth to another, with the levels between.
     fn between(&self, from: f64, to: f64) -> Vec<u32> {
         let (lo, hi) = (from.min(to), from.max(to));
-        let mut chain: Vec<u32> = self.levels.iter().filter(|l| (lo..=hi).contains(&l.0)).map(|l| l.1).collect();
+        let mut chain: Vec<u32> = self
+            .levels
+            .iter()
+            .filter(|l| (lo..=hi).contains(&l.0))
+            .map(|l| l.1)
+            .collect();
         if from > to {
             chain.reverse();
         }
@@ -345,7 +460,8 @@ fn wall(faces: &mut Vec<[u32; 3]>, v: &[u32], u: &[u32]) {
     let (mut i, mut j) = (0, 0);
     while i + 1 < u.len() || j + 1 < v.len() {
         // Advance the chain that lags behind, so that triangles stay as stout as the levels allow.
-        let advance_u = j + 1 >= v.len() || (i + 1 < u.len() && (i + 1) * v.len() <= (j + 1) * u.len());
+        let advance_u =
+            j + 1 >= v.len() || (i + 1 < u.len() && (i + 1) * v.len() <= (j + 1) * u.len());
         if advance_u {
             faces.push([v[j], u[i], u[i + 1]]);
             i += 1;

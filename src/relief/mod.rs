@@ -23,12 +23,23 @@ pub struct Relief {
 }
 
 /// Cuts and scales back.
-pub fn relief(map: &ViewMap, target: &Target, field: &SupportField, groups: &Groups, depths: &Depths) -> Relief {
+pub fn relief(
+    map: &ViewMap,
+    target: &Target,
+    field: &SupportField,
+    groups: &Groups,
+    depths: &Depths,
+) -> Relief {
     let mut clamp_mm = 0.0f64;
     let mut depth = vec![None; map.cells.len()];
     for (c, cell) in map.cells.iter().enumerate() {
-        let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support) else { continue };
-        let Some(slab) = groups.slabs[support as usize] else { continue };
+        let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
+        else {
+            continue;
+        };
+        let Some(slab) = groups.slabs[support as usize] else {
+            continue;
+        };
         depth[c] = Some(cell.corners.map(|p| {
             let q = map.points[p as usize];
             let (anchor, model_depth) = anchor(target, face as usize, q);

@@ -279,7 +279,8 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
 
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
 fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
-    let parsed = read(&model.file).and_then(|bytes| crate::formats::load_model(&model.file, &bytes, false));
+    let parsed =
+        read(&model.file).and_then(|bytes| crate::formats::load_model(&model.file, &bytes, false));
     let at_name = |mut problem: Diagnostic, span: &Span| {
         problem.place.get_or_insert(Place::Scene(span.clone()));
         problem

@@ -8,20 +8,38 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Snapping grids tried in turn, as shares of the window: `spade` can fail on points 1e-9 apart, and then a coarser grid helps.
-const GRIDS: [f64; 3] = [1.0 / (1u64 << 26) as f64, 1.0 / (1u64 << 23) as f64, 1.0 / (1u64 << 20) as f64];
+const GRIDS: [f64; 3] = [
+    1.0 / (1u64 << 26) as f64,
+    1.0 / (1u64 << 23) as f64,
+    1.0 / (1u64 << 20) as f64,
+];
 
 /// Triangulates the window with the edges of the wanted faces and the outlines as constraints. Labels are left empty.
-pub fn arrange(plane: &ImagePlane, target: &Target, wanted: &[bool], outlines: &[Segment]) -> Result<ViewMap, ViewMapError> {
+pub fn arrange(
+    plane: &ImagePlane,
+    target: &Target,
+    wanted: &[bool],
+    outlines: &[Segment],
+) -> Result<ViewMap, ViewMapError> {
     let segments = segments(target, wanted, outlines);
     let (lo, hi) = image_box(target);
     let mut reason = String::new();
     for grid in GRIDS {
-        let snap = Snap { origin: lo, step: (hi - lo).max_element() * grid };
+        let snap = Snap {
+            origin: lo,
+            step: (hi - lo).max_element() * grid,
+        };
         // Last resort against a panic of the triangulation on degenerate input: the next grid, then an error.
         match catch_unwind(AssertUnwindSafe(|| triangulate(&segments, (lo, hi), &snap))) {
             Ok(Ok((points, cells))) => {
                 let neighbours = neighbours(&cells);
-                return Ok(ViewMap { plane: *plane, points, cells, neighbours, doubtful_sr: 0.0 });
+                return Ok(ViewMap {
+                    plane: *plane,
+                    points,
+                    cells,
+                    neighbours,
+                    doubtful_sr: 0.0,
+                });
             }
             Ok(Err(e)) => reason = e,
             Err(_) => reason = "degenerate constraints".into(),
@@ -33,14 +51,29 @@ pub fn arrange(plane: &ImagePlane, target: &Target, wanted: &[bool], outlines: &
 /// Edges of wanted faces, each once, then the outlines.
 fn segments(target: &Target, wanted: &[bool], outlines: &[Segment]) -> Vec<Segment> {
     let mut pairs: Vec<(u32, u32)> = Vec::new();
-    for (f, face) in target.mesh.faces.iter().enumerate().filter(|(f, _)| wanted[*f]) {
+    for (f, face) in target
+        .mesh
+        .faces
+        .iter()
+        .enumerate()
+        .filter(|(f, _)| wanted[*f])
+    {
         let _ = f;
-        pairs.extend((0..3).map(|k| (face[k].min(face[(k + 1) % 3]), face[k].max(face[(k + 1) % 3]))));
+        pairs.extend((0..3).map(|k| {
+            (
+                face[k].min(face[(k + 1) % 3]),
+                face[k].max(face[(k + 1) % 3]),
+            )
+        }));
     }
     pairs.sort_unstable();
     pairs.dedup();
     let image = |v: u32| target.image[v as usize];
-    pairs.iter().map(|&(a, b)| [image(a), image(b)]).chain(outlines.iter().copied()).collect()
+    pairs
+        .iter()
+        .map(|&(a, b)| [image(a), image(b)])
+        .chain(outlines.iter().copied())
+        .collect()
 }
 
 struct Snap {
@@ -61,25 +94,61 @@ impl Snap {
 
 type Triangles = (Vec<DVec2>, Vec<Cell>);
 
-fn triangulate(segments: &[Segment], (lo, hi): (DVec2, DVec2), snap: &Snap) -> Result<Triangles, String> {
+fn triangulate(
+    segments: &[Segment],
+    (lo, hi): (DVec2, DVec2),
+    snap: &Snap,
+) -> Result<Triangles, String> {
     // Distinct snapped points in a fixed order; the window's corners keep everything inside the hull.
     let frame = [lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
-    let mut keys: Vec<(i64, i64)> = segments.iter().flatten().chain(&frame).map(|q| snap.key(*q)).collect();
+    let mut keys: Vec<(i64, i64)> = segments
+        .iter()
+        .flatten()
+        .chain(&frame)
+        .map(|q| snap.key(*q))
+        .collect();
     keys.sort_unstable();
     keys.dedup();
-    let index = |q: &DVec2| keys.binary_search(&snap.key(*q)).map_err(|_| "lost point".to_string());
-    let points: Vec<Point2<f64>> = keys.iter().map(|k| snap.point(*k)).map(|p| Point2::new(p.x, p.y)).collect();
-    let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points, Vec::new()).map_err(|e| e.to_string())?;
+    let index = |q: &DVec2| {
+        keys.binary_search(&snap.key(*q))
+            .map_err(|_| "lost point".to_string())
+    };
+    let points: Vec<Point2<f64>> = keys
+        .iter()
+        .map(|k| snap.point(*k))
+        .map(|p| Point2::new(p.x, p.y))
+        .collect();
+    let mut cdt =
+        ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points, Vec::new())
+            .map_err(|e| e.to_string())?;
     for [a, b] in segments {
         let (a, b) = (index(a)?, index(b)?);
         if a != b {
-            let (a, b) = (spade::handles::FixedVertexHandle::from_index(a), spade::handles::FixedVertexHandle::from_index(b));
+            let (a, b) = (
+                spade::handles::FixedVertexHandle::from_index(a),
+                spade::handles::FixedVertexHandle::from_index(b),
+            );
             cdt.add_constraint_and_split(a, b, |p| p);
         }
     }
-    let points = cdt.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect();
-    let corners = cdt.inner_faces().map(|f| f.vertices().map(|v| v.fix().index() as u32));
-    Ok((points, corners.map(|corners| Cell { corners, face: None, support: None, support_depth: f64::INFINITY }).collect()))
+    let points = cdt
+        .vertices()
+        .map(|v| DVec2::new(v.position().x, v.position().y))
+        .collect();
+    let corners = cdt
+        .inner_faces()
+        .map(|f| f.vertices().map(|v| v.fix().index() as u32));
+    Ok((
+        points,
+        corners
+            .map(|corners| Cell {
+                corners,
+                face: None,
+                support: None,
+                support_depth: f64::INFINITY,
+            })
+            .collect(),
+    ))
 }
 
 /// For every cell the cells across its three sides.

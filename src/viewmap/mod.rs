@@ -60,14 +60,23 @@ impl ViewMap {
     /// Number of connected regions of cells that are `inside`.
     pub fn regions(&self, inside: impl Fn(usize) -> bool) -> usize {
         let mut sets = DisjointSets::new(self.cells.len());
-        let pairs = (0..self.cells.len()).flat_map(|c| self.neighbours[c].iter().flatten().map(move |n| (c, *n)));
-        pairs.filter(|(c, n)| inside(*c) && inside(*n as usize)).for_each(|(c, n)| sets.join(c as u32, n));
-        (0..self.cells.len()).filter(|c| inside(*c) && sets.root(*c as u32) == *c as u32).count()
+        let pairs = (0..self.cells.len())
+            .flat_map(|c| self.neighbours[c].iter().flatten().map(move |n| (c, *n)));
+        pairs
+            .filter(|(c, n)| inside(*c) && inside(*n as usize))
+            .for_each(|(c, n)| sets.join(c as u32, n));
+        (0..self.cells.len())
+            .filter(|c| inside(*c) && sets.root(*c as u32) == *c as u32)
+            .count()
     }
 
     /// Mean of three image points.
     pub fn points_mean(&self, corners: [u32; 3]) -> DVec2 {
-        corners.iter().map(|p| self.points[*p as usize]).sum::<DVec2>() / 3.0
+        corners
+            .iter()
+            .map(|p| self.points[*p as usize])
+            .sum::<DVec2>()
+            / 3.0
     }
 
     /// Solid angle of a cell in steradians.
@@ -94,12 +103,19 @@ impl<'a> SupportField<'a> {
             owner.resize(mesh.faces.len(), i as u32);
         }
         let bvh = Bvh::new(&mesh);
-        Self { supports, mesh, owner, bvh }
+        Self {
+            supports,
+            mesh,
+            owner,
+            bvh,
+        }
     }
 
     /// The first support on a ray and the ray's parameter there.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
-        self.bvh.first_hit(origin, direction).map(|h| (self.owner[h.face], h.t))
+        self.bvh
+            .first_hit(origin, direction)
+            .map(|h| (self.owner[h.face], h.t))
     }
 
     /// Top of the base, if there is one.
@@ -126,10 +142,20 @@ pub struct Target {
 impl Target {
     /// `None` if part of the mesh does not lie in front of the eye.
     pub fn new(mesh: TriMesh, plane: &ImagePlane) -> Option<Self> {
-        let image = mesh.vertices.iter().map(|v| plane.project(*v)).collect::<Option<Vec<_>>>()?;
+        let image = mesh
+            .vertices
+            .iter()
+            .map(|v| plane.project(*v))
+            .collect::<Option<Vec<_>>>()?;
         let depth = mesh.vertices.iter().map(|v| plane.depth(*v)).collect();
         let closed = Edges::new(&mesh).iter().all(|e| e.len() == 2);
-        Some(Self { bvh: Bvh::new(&mesh), mesh, image, depth, closed })
+        Some(Self {
+            bvh: Bvh::new(&mesh),
+            mesh,
+            image,
+            depth,
+            closed,
+        })
     }
 
     pub fn image_of(&self, face: usize) -> [DVec2; 3] {
@@ -157,7 +183,11 @@ pub enum ViewMapError {
 ///
 /// # Errors
 /// If no face is seen, or the triangulation fails on every snapping grid tried.
-pub fn view_map(plane: ImagePlane, target: &Target, supports: &SupportField) -> Result<ViewMap, ViewMapError> {
+pub fn view_map(
+    plane: ImagePlane,
+    target: &Target,
+    supports: &SupportField,
+) -> Result<ViewMap, ViewMapError> {
     let mut wanted = seen_at_samples(&plane, target);
     if !wanted.iter().any(|w| *w) {
         return Err(ViewMapError::NothingSeen);
@@ -182,7 +212,10 @@ pub fn view_map(plane: ImagePlane, target: &Target, supports: &SupportField) -> 
 /// The rectangle around the model's image, a little widened: the part of the image that is mapped.
 fn image_box(target: &Target) -> (DVec2, DVec2) {
     let first = target.image[0];
-    let (lo, hi) = target.image.iter().fold((first, first), |(lo, hi), q| (lo.min(*q), hi.max(*q)));
+    let (lo, hi) = target
+        .image
+        .iter()
+        .fold((first, first), |(lo, hi), q| (lo.min(*q), hi.max(*q)));
     let margin = 0.02 * (hi - lo).max_element();
     (lo - margin, hi + margin)
 }
@@ -192,15 +225,26 @@ fn seen_at_samples(plane: &ImagePlane, target: &Target) -> Vec<bool> {
     let is_seen = |f: usize| {
         let corners = target.image_of(f);
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let samples = [centre, centre.lerp(corners[0], 0.9), centre.lerp(corners[1], 0.9), centre.lerp(corners[2], 0.9)];
-        samples.iter().any(|q| seen_face(plane, target, *q) == Some(f))
+        let samples = [
+            centre,
+            centre.lerp(corners[0], 0.9),
+            centre.lerp(corners[1], 0.9),
+            centre.lerp(corners[2], 0.9),
+        ];
+        samples
+            .iter()
+            .any(|q| seen_face(plane, target, *q) == Some(f))
     };
-    (0..target.mesh.faces.len()).map(|f| target.may_be_seen(f) && is_seen(f)).collect()
+    (0..target.mesh.faces.len())
+        .map(|f| target.may_be_seen(f) && is_seen(f))
+        .collect()
 }
 
 /// The front-most face on the ray `q`.
 fn seen_face(plane: &ImagePlane, target: &Target, q: DVec2) -> Option<usize> {
-    let hit = target.bvh.first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
+    let hit = target
+        .bvh
+        .first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
     hit.map(|h| h.face)
 }
 
@@ -229,11 +273,18 @@ fn holds(outer: [DVec2; 3], inner: [DVec2; 3]) -> bool {
     let area = (b - a).perp_dot(c - a).abs();
     // A point may lie outside by 1e-7 of the image: ten times the snapping grid, a fortieth of a micrometre at 250 mm.
     let slack = 1e-7 * longest / area + 1e-9;
-    inner.iter().all(|q| barycentric(a, b, c, *q).min_element() >= -slack)
+    inner
+        .iter()
+        .all(|q| barycentric(a, b, c, *q).min_element() >= -slack)
 }
 
 /// Faces not yet wanted that rays near the corners of doubtful cells meet.
-fn missing_faces(map: &ViewMap, target: &Target, doubtful: &[usize], wanted: &[bool]) -> Vec<usize> {
+fn missing_faces(
+    map: &ViewMap,
+    target: &Target,
+    doubtful: &[usize],
+    wanted: &[bool],
+) -> Vec<usize> {
     let mut found = Vec::new();
     for c in doubtful {
         let corners = map.triangle(*c);

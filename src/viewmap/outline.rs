@@ -17,8 +17,15 @@ struct Line {
 }
 
 /// The pieces of all supports' outlines inside the rectangle `window` that are not hidden by another support.
-pub fn seen_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)) -> Vec<Segment> {
-    let mut lines: Vec<Line> = silhouette(&field.mesh, plane.eye).iter().filter_map(|e| line(plane, *e)).collect();
+pub fn seen_outlines(
+    plane: &ImagePlane,
+    field: &SupportField,
+    window: (DVec2, DVec2),
+) -> Vec<Segment> {
+    let mut lines: Vec<Line> = silhouette(&field.mesh, plane.eye)
+        .iter()
+        .filter_map(|e| line(plane, *e))
+        .collect();
     lines.extend(feet(field).iter().filter_map(|e| line(plane, *e)));
     lines.retain_mut(|l| clip(l, window));
     let mut seen = Vec::new();
@@ -26,7 +33,10 @@ pub fn seen_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, D
         let cuts = cuts(&lines, i);
         for pair in cuts.windows(2).filter(|p| p[1] - p[0] > 1e-12) {
             if is_seen(plane, field, l, (pair[0] + pair[1]) / 2.0) {
-                seen.push([l.image[0].lerp(l.image[1], pair[0]), l.image[0].lerp(l.image[1], pair[1])]);
+                seen.push([
+                    l.image[0].lerp(l.image[1], pair[0]),
+                    l.image[0].lerp(l.image[1], pair[1]),
+                ]);
             }
         }
     }
@@ -35,21 +45,37 @@ pub fn seen_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, D
 
 /// Edges between a face turned to the eye and one turned away (or no face).
 fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
-    let faces_eye = |f: u32| mesh.area_vector(f as usize).dot(eye - mesh.corners(f as usize)[0]) > 0.0;
+    let faces_eye = |f: u32| {
+        mesh.area_vector(f as usize)
+            .dot(eye - mesh.corners(f as usize)[0])
+            > 0.0
+    };
     let on_outline = |sides: &&[HalfEdge]| {
         let front = sides.iter().filter(|h| faces_eye(h.face)).count();
         front == 1 || (front > 0 && sides.len() != 2)
     };
-    let ends = |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
-    Edges::new(mesh).iter().filter(on_outline).map(ends).collect()
+    let ends =
+        |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
+    Edges::new(mesh)
+        .iter()
+        .filter(on_outline)
+        .map(ends)
+        .collect()
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.
 fn feet(field: &SupportField) -> Vec<[DVec3; 2]> {
-    let Some(z) = field.base_top() else { return Vec::new() };
+    let Some(z) = field.base_top() else {
+        return Vec::new();
+    };
     let mut rings = Vec::new();
     for support in field.supports {
-        if let SupportKind::Pillar { profile, bottom, top, .. } = &support.kind
+        if let SupportKind::Pillar {
+            profile,
+            bottom,
+            top,
+            ..
+        } = &support.kind
             && (*bottom..*top).contains(&z)
         {
             let n = profile.len();
@@ -61,7 +87,10 @@ fn feet(field: &SupportField) -> Vec<[DVec3; 2]> {
 
 fn line(plane: &ImagePlane, ends: [DVec3; 2]) -> Option<Line> {
     let image = [plane.project(ends[0])?, plane.project(ends[1])?];
-    Some(Line { image, inverse_depth: ends.map(|p| 1.0 / plane.depth(p)) })
+    Some(Line {
+        image,
+        inverse_depth: ends.map(|p| 1.0 / plane.depth(p)),
+    })
 }
 
 /// Shortens the line to the window (Liang & Barsky 1984); false if nothing is left.
@@ -83,7 +112,10 @@ fn clip(l: &mut Line, window: (DVec2, DVec2)) -> bool {
         return false;
     }
     let inverse = |t: f64| l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]);
-    let clipped = Line { image: [a + t0 * d, a + t1 * d], inverse_depth: [inverse(t0), inverse(t1)] };
+    let clipped = Line {
+        image: [a + t0 * d, a + t1 * d],
+        inverse_depth: [inverse(t0), inverse(t1)],
+    };
     *l = clipped;
     true
 }
@@ -109,5 +141,7 @@ fn is_seen(plane: &ImagePlane, field: &SupportField, l: &Line, t: f64) -> bool {
     let q = l.image[0].lerp(l.image[1], t);
     let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
     // The ray grazes the line's own support there: a hit nearer by less than a thousandth of a millimetre is its own.
-    field.first_hit(plane.eye, plane.direction(q)).is_none_or(|(_, z)| z > depth - 1e-3)
+    field
+        .first_hit(plane.eye, plane.direction(q))
+        .is_none_or(|(_, z)| z > depth - 1e-3)
 }

@@ -37,7 +37,9 @@ impl Work {
     fn new(map: &ViewMap, height: f64) -> Self {
         let mut around = vec![Vec::new(); map.points.len()];
         for (c, cell) in map.cells.iter().enumerate() {
-            cell.corners.iter().for_each(|p| around[*p as usize].push(c as u32));
+            cell.corners
+                .iter()
+                .for_each(|p| around[*p as usize].push(c as u32));
         }
         let mut fixed = vec![false; map.points.len()];
         for (cell, across) in map.cells.iter().zip(&map.neighbours) {
@@ -48,19 +50,30 @@ impl Work {
         }
         let cells: Vec<_> = map.cells.iter().copied().map(Some).collect();
         let queue = (0..cells.len() as u32).collect();
-        Self { height, points: map.points.clone(), cells, around, fixed, queue }
+        Self {
+            height,
+            points: map.points.clone(),
+            cells,
+            around,
+            fixed,
+            queue,
+        }
     }
 
     fn run(&mut self) {
         // Each step removes two cells or swaps two; the budget only stops two flat cells from swapping for ever.
         let mut budget = 4 * self.cells.len();
         while let Some(c) = self.queue.pop_front() {
-            let Some(cell) = self.cells[c as usize].filter(|cell| self.too_thin(cell)) else { continue };
+            let Some(cell) = self.cells[c as usize].filter(|cell| self.too_thin(cell)) else {
+                continue;
+            };
             if budget == 0 {
                 return;
             }
             budget -= 1;
-            let _ = self.collapse_short_side(&cell, 2.0) || self.flip_long_side(c, &cell) || self.collapse_short_side(&cell, LAST_RESORT);
+            let _ = self.collapse_short_side(&cell, 2.0)
+                || self.flip_long_side(c, &cell)
+                || self.collapse_short_side(&cell, LAST_RESORT);
         }
     }
 
@@ -70,7 +83,8 @@ impl Work {
 
     /// Length of the side from corner `k` to the next.
     fn side(&self, cell: &Cell, k: usize) -> f64 {
-        self.at(cell.corners[k]).distance(self.at(cell.corners[(k + 1) % 3]))
+        self.at(cell.corners[k])
+            .distance(self.at(cell.corners[(k + 1) % 3]))
     }
 
     fn too_thin(&self, cell: &Cell) -> bool {
@@ -80,7 +94,9 @@ impl Work {
     }
 
     fn collapse_short_side(&mut self, cell: &Cell, times: f64) -> bool {
-        let k = (0..3).min_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j))).expect("three sides");
+        let k = (0..3)
+            .min_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j)))
+            .expect("three sides");
         if self.side(cell, k) > times * self.height {
             return false;
         }
@@ -96,8 +112,9 @@ impl Work {
             return false;
         }
         let moved = |cell: &Cell| cell.corners.map(|p| if p == from { to } else { p });
-        let (dying, staying): (Vec<u32>, Vec<u32>) =
-            self.around[from as usize].iter().partition(|c| self.cell(**c).corners.contains(&to));
+        let (dying, staying): (Vec<u32>, Vec<u32>) = self.around[from as usize]
+            .iter()
+            .partition(|c| self.cell(**c).corners.contains(&to));
         let stays_upright = |c: &u32| {
             let [a, b, d] = moved(self.cell(*c)).map(|p| self.at(p));
             orient(a, b, d) > 0.0
@@ -107,12 +124,17 @@ impl Work {
         }
         for c in dying {
             let corners = self.cell(c).corners;
-            corners.iter().for_each(|p| self.around[*p as usize].retain(|x| *x != c));
+            corners
+                .iter()
+                .for_each(|p| self.around[*p as usize].retain(|x| *x != c));
             self.cells[c as usize] = None;
         }
         for c in staying {
             let corners = moved(self.cell(c));
-            self.cells[c as usize] = Some(Cell { corners, ..*self.cell(c) });
+            self.cells[c as usize] = Some(Cell {
+                corners,
+                ..*self.cell(c)
+            });
             self.around[to as usize].push(c);
             self.queue.push_back(c);
         }
@@ -121,11 +143,17 @@ impl Work {
     }
 
     fn cell(&self, c: u32) -> &Cell {
-        self.cells[c as usize].as_ref().expect("only live cells are listed around points")
+        self.cells[c as usize]
+            .as_ref()
+            .expect("only live cells are listed around points")
     }
 
     fn ring(&self, p: u32) -> Vec<u32> {
-        let mut ring: Vec<u32> = self.around[p as usize].iter().flat_map(|c| self.cell(*c).corners).filter(|x| *x != p).collect();
+        let mut ring: Vec<u32> = self.around[p as usize]
+            .iter()
+            .flat_map(|c| self.cell(*c).corners)
+            .filter(|x| *x != p)
+            .collect();
         ring.sort_unstable();
         ring.dedup();
         ring
@@ -133,24 +161,45 @@ impl Work {
 
     fn common_neighbours(&self, a: u32, b: u32) -> usize {
         let ring = self.ring(b);
-        self.ring(a).iter().filter(|x| ring.binary_search(x).is_ok()).count()
+        self.ring(a)
+            .iter()
+            .filter(|x| ring.binary_search(x).is_ok())
+            .count()
     }
 
     /// Replaces the cell and its neighbour across its longest side by two that have the neighbour's label.
     fn flip_long_side(&mut self, c: u32, cell: &Cell) -> bool {
-        let k = (0..3).max_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j))).expect("three sides");
-        let (a, b, v) = (cell.corners[k], cell.corners[(k + 1) % 3], cell.corners[(k + 2) % 3]);
-        let across = self.around[a as usize].iter().copied().find(|x| *x != c && self.cell(*x).corners.contains(&b));
+        let k = (0..3)
+            .max_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j)))
+            .expect("three sides");
+        let (a, b, v) = (
+            cell.corners[k],
+            cell.corners[(k + 1) % 3],
+            cell.corners[(k + 2) % 3],
+        );
+        let across = self.around[a as usize]
+            .iter()
+            .copied()
+            .find(|x| *x != c && self.cell(*x).corners.contains(&b));
         let Some(other) = across else { return false };
         let label = *self.cell(other);
-        let Some(d) = label.corners.iter().copied().find(|p| *p != a && *p != b) else { return false };
+        let Some(d) = label.corners.iter().copied().find(|p| *p != a && *p != b) else {
+            return false;
+        };
         let upright = |x: u32, y: u32, z: u32| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
-        let better = self.thinness([a, d, v]).min(self.thinness([d, b, v])) > self.thinness(cell.corners);
+        let better =
+            self.thinness([a, d, v]).min(self.thinness([d, b, v])) > self.thinness(cell.corners);
         if !upright(a, d, v) || !upright(d, b, v) || !better {
             return false;
         }
-        self.cells[c as usize] = Some(Cell { corners: [a, d, v], ..label });
-        self.cells[other as usize] = Some(Cell { corners: [d, b, v], ..label });
+        self.cells[c as usize] = Some(Cell {
+            corners: [a, d, v],
+            ..label
+        });
+        self.cells[other as usize] = Some(Cell {
+            corners: [d, b, v],
+            ..label
+        });
         self.around[b as usize].retain(|x| *x != c);
         self.around[d as usize].push(c);
         self.around[a as usize].retain(|x| *x != other);

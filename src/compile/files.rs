@@ -1,0 +1,141 @@
+//! The bytes of every output file.
+
+use super::OutputFile;
+use crate::bvh::Bvh;
+use crate::carve::Forest;
+use crate::diagram::plan;
+use crate::formats::{Camera, Metadata, Part, write_3mf, write_glb, write_stl};
+use crate::mesh::TriMesh;
+use crate::render::{Likeness, camera, thumbnail};
+use crate::scene::Scene;
+use crate::support::SupportKind;
+use crate::view::View;
+
+/// Grey of base and bare pillars in coloured files.
+const BARE_COLOUR: [u8; 3] = [198, 194, 186];
+/// Side of the 3MF's thumbnail, pixels.
+const THUMBNAIL_PX: u32 = 512;
+
+fn parts<'a>(scene: &Scene, forest: &'a Forest) -> Vec<Part<'a>> {
+    let mut parts = vec![Part {
+        name: "base and pillars".into(),
+        colour: BARE_COLOUR,
+        solid: &forest.bare,
+    }];
+    for (view, relief) in scene.views.iter().zip(&forest.reliefs) {
+        parts.extend(relief.iter().map(|solid| Part {
+            name: format!("{} reliefs", view.name),
+            colour: view.colour,
+            solid,
+        }));
+    }
+    parts
+}
+
+pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
+    let parts = parts(scene, forest);
+    let (mut mesh, mut colours) = (TriMesh::default(), Vec::new());
+    for part in &parts {
+        mesh.append(part.solid.mesh());
+        colours.resize(mesh.faces.len(), part.colour);
+    }
+    let meta = Metadata {
+        title: scene.title.clone(),
+        description: format!(
+            "A pillar forest of {}: {}",
+            pillars(scene),
+            scene
+                .views
+                .iter()
+                .map(|v| v.name.as_str())
+                .collect::<Vec<_>>()
+                .join(", ")
+        ),
+        application: format!("pillarforest {}", env!("CARGO_PKG_VERSION")),
+        own: vec![
+            ("views".into(), scene.views.len().to_string()),
+            ("pillars".into(), pillars(scene).to_string()),
+        ],
+        ..Metadata::default()
+    };
+    let three_mf = || {
+        let picture = thumbnail(&mesh, &Bvh::new(&mesh), Some(&colours), THUMBNAIL_PX);
+        file("forest.3mf", write_3mf(&parts, &meta, Some(&picture)))
+    };
+    let glb = || {
+        file(
+            "forest.glb",
+            write_glb(
+                &parts,
+                &scene.views.iter().map(view_camera).collect::<Vec<_>>(),
+            ),
+        )
+    };
+    let output = &scene.output;
+    let mut files = Vec::new();
+    files.extend(output.forest_3mf.then(three_mf));
+    files.extend(
+        output
+            .forest_stl
+            .then(|| file("forest.stl", write_stl(&forest.whole, &scene.title))),
+    );
+    files.extend(output.forest_glb.then(glb));
+    files
+}
+
+fn view_camera(view: &View) -> Camera {
+    let (plane, half) = camera(view);
+    Camera {
+        name: view.name.clone(),
+        eye: view.eye,
+        look_at: view.eye + plane.forward,
+        fov: 2.0 * half.atan(),
+    }
+}
+
+pub fn plan_files(scene: &Scene) -> Vec<OutputFile> {
+    let plan = plan(&scene.title, &scene.views, &scene.supports);
+    vec![
+        file("plan.svg", plan.svg().into_bytes()),
+        file("plan.png", plan.png(scene.output.plan_width)),
+    ]
+}
+
+pub fn file(path: impl Into<String>, bytes: Vec<u8>) -> OutputFile {
+    OutputFile {
+        path: path.into(),
+        bytes,
+    }
+}
+
+pub fn pillars(scene: &Scene) -> usize {
+    scene
+        .supports
+        .iter()
+        .filter(|s| matches!(s.kind, SupportKind::Pillar { .. }))
+        .count()
+}
+
+pub fn counts(scene: &Scene) -> String {
+    format!("{} pillars, {} views", pillars(scene), scene.views.len())
+}
+
+pub fn summary(scene: &Scene, forest: &Forest, pictures: &[(Likeness, Vec<u8>)]) -> String {
+    let (lo, hi) = forest.whole.bounds();
+    let size = hi - lo;
+    let likeness: Vec<String> = scene
+        .views
+        .iter()
+        .zip(pictures)
+        .map(|(v, p)| format!("{} {:.1} deg", v.name, p.0.mean_deg))
+        .collect();
+    format!(
+        "{} pillars, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
+        pillars(scene),
+        size.x,
+        size.y,
+        size.z,
+        forest.whole.volume_mm3() / 1000.0,
+        likeness.join(" / ")
+    )
+}

@@ -1,0 +1,154 @@
+//! One view on its way through the stages that concern it alone.
+
+use crate::carve::ViewRelief;
+use crate::diag::Diagnostic;
+use crate::geom::ImagePlane;
+use crate::groups::{Groups, groups};
+use crate::mesh::TriMesh;
+use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
+use crate::relief::{Relief, relief};
+use crate::view::View;
+use crate::viewmap::{SupportField, Target, ViewMap, view_map};
+
+/// Gaps below this share of a model are rounding at its outline.
+const GAP_SHARE: f64 = 1e-6;
+
+/// One view before optimisation.
+pub struct Sight<'a> {
+    pub view: &'a View,
+    pub target: Target,
+    pub map: ViewMap,
+    pub groups: Groups,
+}
+
+/// One view after it.
+pub struct Shape {
+    pub depths: Depths,
+    pub relief: Relief,
+}
+
+/// Projects, maps and groups one view.
+///
+/// # Errors
+/// If the models do not lie before the eye, nothing of them is seen, or no support carries them.
+pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Diagnostic>> {
+    let failed = |text: String| vec![Diagnostic::error(format!("view \"{}\": {text}", view.name))];
+    let plane = ImagePlane::looking_at(view.eye, view.look_at);
+    let mut mesh = TriMesh::default();
+    view.models.iter().for_each(|m| mesh.append(&m.mesh));
+    let target = Target::new(mesh, &plane)
+        .ok_or_else(|| failed("part of its models lies beside or behind the eye".into()))?;
+    let map = view_map(plane, &target, field).map_err(|e| failed(e.to_string()))?;
+    let groups = groups(&view.name, &map, &target, field)?;
+    if groups.groups.is_empty() {
+        return Err(failed(
+            "no pillar stands behind or in its models, so nothing of them can appear".into(),
+        ));
+    }
+    Ok(Sight {
+        view,
+        target,
+        map,
+        groups,
+    })
+}
+
+impl Sight<'_> {
+    /// Solid angles in steradians of the models, and of what of them a support carries.
+    pub fn solid_angles(&self) -> (f64, f64) {
+        let of = |c: &usize| self.map.solid_angle(*c);
+        let seen: Vec<usize> = (0..self.map.cells.len())
+            .filter(|c| self.map.cells[*c].face.is_some())
+            .collect();
+        (
+            seen.iter().map(of).sum(),
+            seen.iter()
+                .filter(|c| self.groups.of_cell[**c].is_some())
+                .map(of)
+                .sum(),
+        )
+    }
+
+    /// Share of the models' solid angle that a support carries.
+    pub fn coverage(&self) -> f64 {
+        let (whole, carried) = self.solid_angles();
+        carried / whole
+    }
+
+    /// What of the models no support carries, if it is worth telling.
+    pub fn warning(&self, field: &SupportField) -> Option<Diagnostic> {
+        let gap = 1.0 - self.coverage();
+        let largest = (0..self.map.cells.len())
+            .filter(|c| self.map.cells[*c].face.is_some() && self.groups.of_cell[*c].is_none())
+            .max_by(|a, b| {
+                self.map
+                    .solid_angle(*a)
+                    .total_cmp(&self.map.solid_angle(*b))
+            })?;
+        let behind = match self.map.cells[largest].support {
+            Some(s) => format!(
+                "it meets {}, which carries nothing",
+                field.supports[s as usize].name
+            ),
+            None => "no pillar stands there, or it is too short".into(),
+        };
+        let side = self.map.points_mean(self.map.cells[largest].corners);
+        let (across, above) = (side.x.atan().to_degrees(), side.y.atan().to_degrees());
+        (gap > GAP_SHARE).then(|| {
+            Diagnostic::warning(format!(
+                "view \"{}\" misses {:.2} % of its models, mostly {:.1} degrees {} and {:.1} degrees {} its line of sight: {behind}",
+                self.view.name,
+                100.0 * gap,
+                across.abs(),
+                if across < 0.0 { "left of" } else { "right of" },
+                above.abs(),
+                if above < 0.0 { "below" } else { "above" },
+            ))
+            .help("add or raise a pillar there, or move the models")
+        })
+    }
+
+    /// Optimises, cuts and scales back.
+    pub fn shape(&self, energy: Energy, field: &SupportField) -> Result<Shape, Vec<Diagnostic>> {
+        let depths = depths(energy, &self.target, &self.map, field, &self.groups)
+            .map_err(|e| vec![self.explain(e, field)])?;
+        let relief = relief(&self.map, &self.target, field, &self.groups, &depths);
+        Ok(Shape { depths, relief })
+    }
+
+    /// A solver's failure in terms of the scene: the pillar and the bounds in conflict.
+    fn explain(&self, error: SolveError, field: &SupportField) -> Diagnostic {
+        let what = Diagnostic::error(format!("view \"{}\": {error}", self.view.name));
+        let SolveError::Infeasible(Some(kind)) = error else {
+            return what;
+        };
+        let (bound, note) = match kind {
+            RowKind::Near(b) => (self.groups.bounds.get(b as usize), "nearest"),
+            RowKind::Far(b) => (self.groups.bounds.get(b as usize), "farthest"),
+            RowKind::Order(_) => (None, "order"),
+        };
+        let Some(bound) = bound else {
+            return what
+                .help("sheets of the model must swap their depth order: try `ordering: false`");
+        };
+        let support = &field.supports[self.groups.groups[bound.group as usize].support as usize];
+        what.label(format!(
+            "the {note} depth allowed on {} is in conflict (relative depth {:.5} to {:.5})",
+            support.name, bound.lower, bound.upper
+        ))
+        .help(format!(
+            "give {} a thicker layer (`front`, `back`)",
+            support.name
+        ))
+    }
+
+    /// What the solids need of this view.
+    pub fn relief<'a>(&'a self, relief: &'a Relief) -> ViewRelief<'a> {
+        ViewRelief {
+            name: &self.view.name,
+            map: &self.map,
+            groups: &self.groups,
+            relief,
+        }
+    }
+}

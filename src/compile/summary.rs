@@ -1,0 +1,92 @@
+//! The report of a finished forest.
+
+use super::sight::{Shape, Sight};
+use crate::carve::Forest;
+use crate::diag::Diagnostic;
+use crate::render::Likeness;
+use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
+use crate::scene::Scene;
+
+/// Gathers what every stage found.
+pub fn report(
+    scene: &Scene,
+    sights: &[Sight],
+    shapes: &[Shape],
+    forest: &Forest,
+    pictures: &[(Likeness, Vec<u8>)],
+    warnings: &[Diagnostic],
+) -> Report {
+    let views = sights
+        .iter()
+        .zip(shapes)
+        .zip(pictures)
+        .map(|((sight, shape), (likeness, _))| {
+            let solved = &shape.depths.solved;
+            ViewReport {
+                solid_angle_sr: Some(sight.solid_angles().0),
+                coverage: Some(sight.coverage()),
+                gaps: Some(sight.map.regions(|c| {
+                    sight.map.cells[c].face.is_some() && sight.groups.of_cell[c].is_none()
+                })),
+                groups: Some(sight.groups.groups.len()),
+                cells: Some(sight.map.cells.len()),
+                clamp_mm: Some(shape.relief.clamp_mm),
+                program: Some(ProgramReport {
+                    variables: solved.variables,
+                    rows: solved.rows,
+                    active_rows: solved.active,
+                    iterations: solved.iterations,
+                    objective: solved.objective,
+                    primal_residual: solved.primal_residual,
+                    dual_residual: solved.dual_residual,
+                    duality_gap_rel: solved.gap,
+                }),
+                ..ViewReport::new(sight.view).with_likeness(likeness)
+            }
+        });
+    let repairs = &forest.repairs;
+    let check = |name: &str, passed: bool, found: String| Check {
+        name: name.into(),
+        passed,
+        found,
+    };
+    let checks = vec![
+        check(
+            "closed, oriented, 2-manifold, free of self-intersection",
+            true,
+            String::new(),
+        ),
+        check(
+            "one connected part",
+            forest.whole.parts() == 1,
+            format!("{} parts", forest.whole.parts()),
+        ),
+        check(
+            "no relief given up",
+            repairs.dropped_cells == 0,
+            format!("{} cells", repairs.dropped_cells),
+        ),
+        check(
+            "loose crumbs dropped",
+            true,
+            format!("{:.5} mm3", repairs.crumbs_mm3),
+        ),
+        check(
+            "floating reliefs tied by a brace",
+            true,
+            format!("{}", repairs.braces),
+        ),
+        check(
+            "relief corners filled in",
+            true,
+            format!("{}", repairs.filled),
+        ),
+    ];
+    Report {
+        scene: scene.title.clone(),
+        views: views.collect(),
+        solid: Some(SolidReport::new(&forest.whole, checks)),
+        warnings: warnings.iter().map(|w| w.message.clone()).collect(),
+        ..Report::default()
+    }
+}
