@@ -8,7 +8,7 @@
 use crate::diag::Diagnostic;
 use crate::geom::barycentric;
 use crate::mesh::face_components;
-use crate::support::Slab;
+use crate::support::{Datum, Slab};
 use crate::viewmap::{SupportField, Target, ViewMap};
 
 /// Points nearer to a side of a face than this, in the image, lie on it: 0.1 micrometre at 250 mm, above all rounding and
@@ -97,7 +97,7 @@ pub fn groups(view: &str, map: &ViewMap, target: &Target, field: &SupportField) 
     let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(carries).collect();
     let (groups, of_cell) = regions(map, &labels);
     check_layers(view, &groups, field, &slabs)?;
-    let bounds = bounds(map, target, field, &of_cell, &slabs);
+    let bounds = bounds(map, target, field, &groups, &of_cell, &slabs);
     Ok(Groups { groups, of_cell, bounds, slabs })
 }
 
@@ -150,7 +150,14 @@ fn check_layers(view: &str, groups: &[Group], field: &SupportField, slabs: &[Opt
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-fn bounds(map: &ViewMap, target: &Target, field: &SupportField, of_cell: &[Option<u32>], slabs: &[Option<Slab>]) -> Vec<Bound> {
+fn bounds(
+    map: &ViewMap,
+    target: &Target,
+    field: &SupportField,
+    groups: &[Group],
+    of_cell: &[Option<u32>],
+    slabs: &[Option<Slab>],
+) -> Vec<Bound> {
     // One bound for each group, point and set of vertices: cells that share a corner on a mesh vertex or edge agree there.
     let mut keyed: Vec<((u32, u32, [u32; 3]), Bound)> = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
@@ -167,7 +174,24 @@ fn bounds(map: &ViewMap, target: &Target, field: &SupportField, of_cell: &[Optio
     }
     keyed.sort_by_key(|x| x.0);
     keyed.dedup_by_key(|x| x.0);
-    keyed.into_iter().map(|x| x.1).collect()
+    let bounds: Vec<Bound> = keyed.into_iter().map(|x| x.1).collect();
+    needed(bounds, groups, field)
+}
+
+/// Without bounds that follow from others: on a flat layer, a point between vertices that are all bounded in the same group.
+fn needed(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> Vec<Bound> {
+    let alone = |b: &Bound| b.anchor.terms().count() == 1;
+    let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0 as u32).next();
+    let mut bounded: Vec<(u32, u32)> = bounds.iter().filter(|b| alone(b)).filter_map(|b| Some((b.group, vertex(b)?))).collect();
+    bounded.sort_unstable();
+    let flat = |b: &Bound| {
+        let support = groups[b.group as usize].support;
+        field.supports[support as usize].layer.is_some_and(|l| l.datum == Datum::AxisPlane)
+    };
+    let follows = |b: &Bound| {
+        !alone(b) && flat(b) && b.anchor.terms().all(|(v, _)| bounded.binary_search(&(b.group, v as u32)).is_ok())
+    };
+    bounds.into_iter().filter(|b| !follows(b)).collect()
 }
 
 /// Smallest and largest depth (along the image plane's forward axis) the layer of `support` allows on the ray `q`.

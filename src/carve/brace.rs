@@ -1,11 +1,14 @@
-//! Ties for reliefs that would float: pieces at a pillar's very edge may lie where the pillar has no material.
+//! Ties for parts that would float: pieces of relief or pillar at a pillar's very edge, where nothing stands behind them.
 //!
-//! A brace joins the backing of such a piece to the support's axis, inside the backing's own depth range: behind the layer and
-//! within the support's shadow, so its eye never sees it.
+//! A brace is a stub in the piece's own shadow, back to the depth of the reliefs' backing, and a bar from there to the support's
+//! axis, behind the layer and within the support's shadow: the eye sees neither.
 
 use super::boolean::{Boolean, BooleanError};
 use crate::support::Slab;
 use glam::DVec3;
+
+/// What of a loose part counts as its rear, millimetres of depth.
+const REAR_MM: f64 = 0.6;
 
 /// One brace for every loose part larger than `crumb` cubic millimetres (the largest part is the support itself).
 pub fn braces(joined: &Boolean, slab: &Slab, crumb: f64) -> Result<Vec<Boolean>, BooleanError> {
@@ -14,17 +17,14 @@ pub fn braces(joined: &Boolean, slab: &Slab, crumb: f64) -> Result<Vec<Boolean>,
 }
 
 fn brace(part: &Boolean, slab: &Slab) -> Result<Option<Boolean>, BooleanError> {
-    let mesh = part.simplified(0.0);
-    let behind = |p: &DVec3| slab.offset(*p) > slab.deepest();
-    // The back face of the piece, moved to the axis and to the front of the backing, spans the brace.
-    let back: Vec<DVec3> = mesh.vertices.into_iter().filter(behind).collect();
-    if back.is_empty() {
-        return Ok(None);
-    }
+    let vertices = part.simplified(0.0).vertices;
+    let rear = vertices.iter().map(|p| slab.offset(*p)).fold(f64::NEG_INFINITY, f64::max);
+    let rear: Vec<DVec3> = vertices.into_iter().filter(|p| slab.offset(*p) > rear - REAR_MM).collect();
     let thickness = slab.backing() - slab.deepest();
-    let corners = back.iter().flat_map(|p| {
-        let front = slab.moved(*p, -0.9 * thickness);
-        [*p, front, slab.onto_axis(*p), slab.onto_axis(front)]
-    });
-    Boolean::hull(&corners.collect::<Vec<_>>()).map(Some)
+    let at = |p: &DVec3, offset: f64| slab.moved(*p, offset - slab.offset(*p));
+    let (front, back) = (slab.deepest() + 0.1 * thickness, slab.backing());
+    let stub: Vec<DVec3> = rear.iter().flat_map(|p| [*p, at(p, back)]).collect();
+    let bar = rear.iter().flat_map(|p| [at(p, front), at(p, back)]).flat_map(|p| [p, slab.onto_axis(p)]);
+    let bar = Boolean::hull(&bar.collect::<Vec<_>>())?;
+    Boolean::hull(&stub)?.plus(&bar).map(|b| (!b.is_empty()).then_some(b))
 }

@@ -2,12 +2,13 @@
 //!
 //! Boolean operations are right in f64 but leave slivers thinner than an f32 step; rounded, some of them cut their
 //! neighbours. Takes a closed mesh; gives it rounded to f32 with slivers dissolved: needles lose their short edge, caps give
-//! their area to the face across their long edge. Promises not to open it and to move nothing by more than the last of
+//! their area to the face across their long edge; surfaces that only touch are drawn apart. Promises not to open it and to move nothing by more than the last of
 //! [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
 
 use crate::mesh::TriMesh;
+use crate::mesh::detach::detach;
 use crate::mesh::intersect::self_intersections;
-use crate::mesh::weld::{drop_collapsed, drop_unreferenced, snap_to_f32};
+use crate::mesh::weld::{cancel_folds, drop_collapsed, drop_unreferenced, snap_to_f32};
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -54,6 +55,8 @@ fn dissolve(mesh: &mut TriMesh, faces: Vec<u32>, height: f64) {
     let mut surgery = Surgery::new(mesh, faces, height);
     surgery.run();
     drop_collapsed(mesh);
+    cancel_folds(mesh);
+    detach(mesh);
     drop_unreferenced(mesh);
 }
 

@@ -2,6 +2,7 @@
 
 pub mod boxes;
 pub mod defects;
+pub mod detach;
 pub mod gate;
 pub mod intersect;
 pub mod mend;

@@ -226,7 +226,7 @@ pub(crate) fn rounded_to_f32(mesh: &TriMesh) -> TriMesh {
 }
 
 /// Drops pairs of faces with the same vertices and opposite winding; gives the number of faces dropped.
-fn cancel_folds(mesh: &mut TriMesh) -> usize {
+pub fn cancel_folds(mesh: &mut TriMesh) -> usize {
     let mut keep = vec![true; mesh.faces.len()];
     for group in duplicate_groups(mesh) {
         let (even, odd): (Vec<u32>, Vec<u32>) = group
