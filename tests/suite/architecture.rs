@@ -150,7 +150,7 @@ fn a_module_names_only_earlier_modules() {
                 let end = rest
                     .find(|c: char| !c.is_alphanumeric() && c != '_')
                     .unwrap_or(rest.len());
-                if !rank(&rest[..end]).is_some_and(|r| r <= own) {
+                if rank(&rest[..end]).is_none_or(|r| r > own) {
                     wrong.push(format!("{place}: {}", line.trim()));
                 }
             }
