@@ -70,3 +70,27 @@ fn the_version_is_in_the_changelog() {
     let heading = format!("## {}", env!("CARGO_PKG_VERSION"));
     assert!(text("CHANGELOG.md").contains(&heading), "{heading}");
 }
+
+#[test]
+fn the_table_of_errors_is_that_of_the_golden_builds() {
+    let readme = text("README.md");
+    let mut count = 0;
+    for entry in fs::read_dir(root().join("tests/golden")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "json") {
+            continue;
+        }
+        let scene = path.file_stem().unwrap().to_str().unwrap();
+        let figures: serde_json::Value =
+            serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        for view in figures["views"].as_array().unwrap() {
+            let error = &view["mean_median_p90_deg"];
+            let [mean, median, p90] = [0, 1, 2].map(|k| error[k].as_f64().unwrap());
+            let name = view["name"].as_str().unwrap();
+            let row = format!("| {scene} | {name} | {mean:.1} | {median:.1} | {p90:.1} |");
+            assert!(readme.contains(&row), "the README wants this row:\n  {row}");
+            count += 1;
+        }
+    }
+    assert!(count >= 5, "{count}");
+}
