@@ -10,6 +10,9 @@ use glam::DVec3;
 /// What of a loose part counts as its rear, millimetres of depth.
 const REAR_MM: f64 = 0.6;
 
+/// A brace is this much slimmer than the piece it holds, so that no face of one lies in a face of the other.
+const SLIM: f64 = 0.83;
+
 /// One brace for every loose part larger than `crumb` cubic millimetres (the largest part is the support itself).
 pub fn braces(joined: &Boolean, slab: &Slab, crumb: f64) -> Result<Vec<Boolean>, BooleanError> {
     let parts = joined.parts();
@@ -31,9 +34,11 @@ fn brace(part: &Boolean, slab: &Slab) -> Result<Option<Boolean>, BooleanError> {
         .into_iter()
         .filter(|p| slab.offset(*p) > rear - REAR_MM)
         .collect();
+    let middle = rear.iter().sum::<DVec3>() / rear.len().max(1) as f64;
+    let rear: Vec<DVec3> = rear.iter().map(|p| middle.lerp(*p, SLIM)).collect();
     let thickness = slab.backing() - slab.deepest();
     let at = |p: &DVec3, offset: f64| slab.moved(*p, offset - slab.offset(*p));
-    let (front, back) = (slab.deepest() + 0.1 * thickness, slab.backing());
+    let (front, back) = (slab.deepest() + 0.1 * thickness, slab.backing() - 0.1 * thickness);
     let stub: Vec<DVec3> = rear.iter().flat_map(|p| [*p, at(p, back)]).collect();
     let bar = rear
         .iter()

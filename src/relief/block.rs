@@ -6,11 +6,11 @@
 //! must not swap order along a side (else a wall would cross itself). A region that touches itself in one point is pulled
 //! apart there by a hundredth of a millimetre.
 
-use crate::geom::orient;
+use crate::geom::{orient, segment_crossing};
 use crate::mesh::TriMesh;
 use crate::viewmap::ViewMap;
 use glam::DVec2;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Depths nearer than this at one point are one level, millimetres. Rounding leaves 1e-9, f32 files resolve 8e-6; steps
 /// below a printer's reach but above this are kept because they are parts of steps that grow along a line.
@@ -22,6 +22,9 @@ const PULL_MM: f64 = 0.01;
 /// overlap would touch in a wall along the rays there; so they truly overlap, unseen. Below 0.01 mending could not tell overlap
 /// from contact.
 const LAP_MM: f64 = 0.04;
+
+/// Corners around a point on the edge must leave this much of a circle open, or the region overlaps itself there; radians.
+const FULL_TURN: f64 = std::f64::consts::TAU - 0.01;
 
 /// A closed, outward oriented solid and what was changed to make it one.
 #[derive(Clone, Debug, Default)]
@@ -329,9 +332,80 @@ impl Field {
                     .for_each(|f| *outwards.entry(*f).or_default() -= (v - u).perp());
             }
         }
+        let mut homes: BTreeMap<u32, DVec2> = BTreeMap::new();
         for (f, direction) in outwards {
-            self.shift(f as usize, direction, LAP_MM);
+            let home = self.fans[f as usize].q;
+            if self.shift(f as usize, direction, LAP_MM) {
+                homes.insert(f, home);
+            }
         }
+        self.send_home(homes);
+    }
+
+    /// Undoes moves until the region overlaps itself nowhere: at the latest when all are undone.
+    fn send_home(&mut self, mut homes: BTreeMap<u32, DVec2>) {
+        while !homes.is_empty() {
+            let mut back = self.overlapping_fans(&homes);
+            back.retain(|f| homes.contains_key(f));
+            if back.is_empty() {
+                return;
+            }
+            for f in back {
+                if let Some(home) = homes.remove(&f) {
+                    self.fans[f as usize].q = home;
+                }
+            }
+        }
+    }
+
+    /// Fans of cells turned over, of sides that cross and of corners wound past a full circle, among those near moved ones.
+    fn overlapping_fans(&self, moved: &BTreeMap<u32, DVec2>) -> BTreeSet<u32> {
+        let q = |f: u32| self.fans[f as usize].q;
+        let mut bad = BTreeSet::new();
+        for fans in &self.fan_of {
+            if fans.iter().any(|f| moved.contains_key(f)) && orient(q(fans[0]), q(fans[1]), q(fans[2])) <= 0.0 {
+                bad.extend(fans);
+            }
+        }
+        for (f, fan) in self.fans.iter().enumerate() {
+            let around = || fan.corners.iter().flat_map(|(c, _)| self.fan_of[*c as usize]);
+            if !fan.closed && around().any(|f| moved.contains_key(&f)) && self.winding(f) > FULL_TURN {
+                bad.extend(around());
+            }
+        }
+        let border = self.border();
+        for s in border.iter().filter(|s| s.iter().any(|f| moved.contains_key(f))) {
+            let (a, b) = (q(s[0]), q(s[1]));
+            let (lo, hi) = (a.min(b), a.max(b));
+            for t in border.iter().filter(|t| t.iter().all(|f| !s.contains(f))) {
+                let (c, d) = (q(t[0]), q(t[1]));
+                let apart = c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any();
+                if !apart && segment_crossing(a, b, c, d).is_some() {
+                    bad.extend(s.iter().chain(t));
+                }
+            }
+        }
+        bad
+    }
+
+    /// The sides without a neighbour, as pairs of fans.
+    fn border(&self) -> Vec<[u32; 2]> {
+        let sides = (0..self.cells.len()).flat_map(|c| (0..3).map(move |k| (c, k)));
+        sides
+            .filter(|(c, k)| self.neighbours[*c][*k].is_none())
+            .map(|(c, k)| [self.fan_of[c][k], self.fan_of[c][(k + 1) % 3]])
+            .collect()
+    }
+
+    /// Sum of a fan's corner angles, radians.
+    fn winding(&self, f: usize) -> f64 {
+        let q = |f: u32| self.fans[f as usize].q;
+        let angle = |&(c, k): &Corner| {
+            let fans = self.fan_of[c as usize];
+            let [a, b] = [1, 2].map(|j| q(fans[(k as usize + j) % 3]) - self.fans[f].q);
+            a.angle_to(b).abs()
+        };
+        self.fans[f].corners.iter().map(angle).sum()
     }
 
     /// Moves a fan's ray `by` millimetres in the image, or half or a quarter of it, if no cell turns over.
