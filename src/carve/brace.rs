@@ -38,7 +38,10 @@ fn brace(part: &Boolean, slab: &Slab) -> Result<Option<Boolean>, BooleanError> {
     let rear: Vec<DVec3> = rear.iter().map(|p| middle.lerp(*p, SLIM)).collect();
     let thickness = slab.backing() - slab.deepest();
     let at = |p: &DVec3, offset: f64| slab.moved(*p, offset - slab.offset(*p));
-    let (front, back) = (slab.deepest() + 0.1 * thickness, slab.backing() - 0.1 * thickness);
+    let (front, back) = (
+        slab.deepest() + 0.1 * thickness,
+        slab.backing() - 0.1 * thickness,
+    );
     let stub: Vec<DVec3> = rear.iter().flat_map(|p| [*p, at(p, back)]).collect();
     let bar = rear
         .iter()

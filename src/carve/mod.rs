@@ -147,10 +147,6 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
 /// The result of booleans as a checked solid: as it is, mended, or mended after slivers were simplified away.
 fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
-    if std::env::var_os("PF_DEBUG").is_some() {
-        let m = crate::mesh::snap_to_f32(&solid.simplified(0.0)).mesh;
-        eprintln!("{place} raw {:?}", crate::mesh::check(&m));
-    }
     for tolerance in [1e-4, 5e-4, 0.0] {
         match Solid::new(mend(&solid.simplified(tolerance))) {
             Ok(solid) => return Ok(solid),

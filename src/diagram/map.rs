@@ -149,6 +149,16 @@ fn constrained(drawing: &mut Drawing, page: &Page, facts: &Facts, sight: &Sight,
     drawing.polyline(&page.outline(&line), Pen::new(RED, 0.55 * page.u));
 }
 
+/// A pillar's name as messages have it, short: `p7` is 7, `owl-7` is 7 too (its colour tells the rest), any other its count.
+fn short_name(k: usize, name: &str) -> String {
+    let number = name.rsplit(['p', '-']).next().unwrap_or_default();
+    if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) {
+        number.to_owned()
+    } else {
+        (k + 1).to_string()
+    }
+}
+
 /// Numbers stand behind their pillar as the owner sees it, in its shadow; on the pillar where there is no room around it.
 fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let mut discs: Vec<(DVec2, f64)> = facts.supports.iter().filter_map(disc).collect();
@@ -156,12 +166,7 @@ fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         let Some((axis, reach)) = disc(support) else {
             continue;
         };
-        // As messages name it, short: p7 is 7.
-        let text = support
-            .name
-            .strip_prefix('p')
-            .unwrap_or(&support.name)
-            .to_owned();
+        let text = short_name(k, &support.name);
         let size = (0.9 * reach).min(3.0 * page.u);
         // Smaller ones could not be read on A4.
         if size < 0.9 * page.u {

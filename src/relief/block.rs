@@ -363,18 +363,30 @@ impl Field {
         let q = |f: u32| self.fans[f as usize].q;
         let mut bad = BTreeSet::new();
         for fans in &self.fan_of {
-            if fans.iter().any(|f| moved.contains_key(f)) && orient(q(fans[0]), q(fans[1]), q(fans[2])) <= 0.0 {
+            if fans.iter().any(|f| moved.contains_key(f))
+                && orient(q(fans[0]), q(fans[1]), q(fans[2])) <= 0.0
+            {
                 bad.extend(fans);
             }
         }
         for (f, fan) in self.fans.iter().enumerate() {
-            let around = || fan.corners.iter().flat_map(|(c, _)| self.fan_of[*c as usize]);
-            if !fan.closed && around().any(|f| moved.contains_key(&f)) && self.winding(f) > FULL_TURN {
+            let around = || {
+                fan.corners
+                    .iter()
+                    .flat_map(|(c, _)| self.fan_of[*c as usize])
+            };
+            if !fan.closed
+                && around().any(|f| moved.contains_key(&f))
+                && self.winding(f) > FULL_TURN
+            {
                 bad.extend(around());
             }
         }
         let border = self.border();
-        for s in border.iter().filter(|s| s.iter().any(|f| moved.contains_key(f))) {
+        for s in border
+            .iter()
+            .filter(|s| s.iter().any(|f| moved.contains_key(f)))
+        {
             let (a, b) = (q(s[0]), q(s[1]));
             let (lo, hi) = (a.min(b), a.max(b));
             for t in border.iter().filter(|t| t.iter().all(|f| !s.contains(f))) {

@@ -183,8 +183,8 @@ fn the_svg_is_well_formed_true_to_scale_and_says_what_it_shows() {
         "owl",
         "hare",
         "a \"fish\" & <more>",
-        "0",
-        "10",
+        "1",
+        "11",
     ] {
         assert!(labels.iter().any(|l| l == wanted), "{wanted} is missing");
     }
