@@ -118,28 +118,29 @@ impl Sight<'_> {
 
     /// A solver's failure in terms of the scene: the pillar and the bounds in conflict.
     fn explain(&self, error: SolveError, field: &SupportField) -> Diagnostic {
-        let what = Diagnostic::error(format!("view \"{}\": {error}", self.view.name));
+        let view = &self.view.name;
         let SolveError::Infeasible(Some(kind)) = error else {
-            return what;
+            return Diagnostic::error(format!("view \"{view}\": {error}"))
+                .help("thicker layers (`front`, `back`) make it easier; `check` tells whether the models are sound");
         };
-        let (bound, note) = match kind {
+        let (bound, limit) = match kind {
             RowKind::Near(b) => (self.groups.bounds.get(b as usize), "nearest"),
             RowKind::Far(b) => (self.groups.bounds.get(b as usize), "farthest"),
-            RowKind::Order(_) => (None, "order"),
+            RowKind::Order(_) => (None, ""),
         };
         let Some(bound) = bound else {
-            return what
-                .help("sheets of the model must swap their depth order: try `ordering: false`");
+            return Diagnostic::error(format!(
+                "view \"{view}\": {error} and keep the depth order of the model's parts"
+            ))
+            .help("try `ordering: false` in `energy`, or thicker layers (`front`, `back`)");
         };
-        let support = &field.supports[self.groups.groups[bound.group as usize].support as usize];
-        what.label(format!(
-            "the {note} depth allowed on {} is in conflict (relative depth {:.5} to {:.5})",
-            support.name, bound.lower, bound.upper
+        let support =
+            &field.supports[self.groups.groups[bound.group as usize].support as usize].name;
+        Diagnostic::error(format!(
+            "view \"{view}\": {error}; the {limit} depth on {support} contradicts its neighbours (allowed there: {:.5} to {:.5} of the model's depth)",
+            bound.lower, bound.upper
         ))
-        .help(format!(
-            "give {} a thicker layer (`front`, `back`)",
-            support.name
-        ))
+        .help(format!("give {support} a thicker layer (`front`, `back`)"))
     }
 
     /// What the solids need of this view.

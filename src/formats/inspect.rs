@@ -143,15 +143,29 @@ impl fmt::Display for Inspection {
             format!(", {count} bodies")
         };
         writeln!(f, "{}: {}{bodies}, {verdict}", self.file, self.format)?;
-        for body in self.bodies.iter().chain(&self.together) {
+        for body in &self.bodies {
             write!(f, "{body}")?;
         }
-        Ok(())
+        let Some(together) = &self.together else {
+            return Ok(());
+        };
+        together.figures(f)?;
+        match (together.defects.is_empty(), self.printable) {
+            (false, true) => writeln!(f, "    bodies share walls or overlap, as coloured parts do"),
+            _ => together.verdict(f),
+        }
     }
 }
 
 impl fmt::Display for BodyReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.figures(f)?;
+        self.verdict(f)
+    }
+}
+
+impl BodyReport {
+    fn figures(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.name.is_empty() {
             writeln!(f, "  {}", self.name)?;
         }
@@ -169,13 +183,16 @@ impl fmt::Display for BodyReport {
                 "    volume {:.3} cm3, area {:.2} cm2",
                 volume / 1e3,
                 self.area_mm2 / 1e2
-            )?,
+            ),
             None => writeln!(
                 f,
                 "    open, so without a volume; area {:.2} cm2",
                 self.area_mm2 / 1e2
-            )?,
+            ),
         }
+    }
+
+    fn verdict(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for defect in &self.defects {
             writeln!(f, "    defect: {}", defect.text)?;
         }

@@ -13,3 +13,4 @@ mod render;
 mod scene;
 mod scenes;
 mod shapes;
+mod visibility;
