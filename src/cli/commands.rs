@@ -117,6 +117,12 @@ struct Loaded {
 
 /// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
 fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
+    if let Some(jobs) = args.jobs {
+        // Before anything runs in parallel: a pool that exists already would keep its size.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.into())
+            .build_global();
+    }
     let stop = |list: &[Diagnostic], source: Option<&Source>| {
         fail(messages, list, source, WRONG_INPUT);
         None
@@ -170,12 +176,6 @@ fn compile(
     loaded: &Loaded,
     goal: Goal,
 ) -> Result<(Build, Reporter), u8> {
-    if let Some(jobs) = args.jobs {
-        // Fails only if a pool exists already, which then keeps its size.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.into())
-            .build_global();
-    }
     let reporter = Reporter::new(global.quiet, global.verbose);
     let result = compile::run(&loaded.scene, goal, &|stage, share| {
         reporter.report(stage, share)
