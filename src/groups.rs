@@ -279,6 +279,9 @@ pub fn layer_at(
 ) -> (f64, f64) {
     let direction = map.plane.direction(q);
     let on_axis = slab.plane(direction, 0.0);
+    if !slab.follows_surface() {
+        return slab.bounds(direction, on_axis);
+    }
     // At the outline the ray may just miss the support: the axis plane is where the surface ends there.
     let surface = field
         .first_hit(map.plane.eye, direction)

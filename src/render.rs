@@ -64,7 +64,7 @@ pub fn view_picture(
     size_px: u32,
 ) -> (Likeness, Vec<u8>) {
     let size = size_px.clamp(16, 2048) as usize;
-    let target = targets(view);
+    let target = view.target();
     let target_bvh = Bvh::new(&target);
     let (plane, half) = camera(view);
     let look = |x: f64, y: f64| {
@@ -102,7 +102,7 @@ pub fn view_picture(
 /// The camera of a view's pictures: towards the middle of its models, upright, square, with the tangent of half the
 /// field of view so that the models fill the picture but for 5 %.
 pub fn camera(view: &View) -> (ImagePlane, f64) {
-    let target = targets(view);
+    let target = view.target();
     let middle = target
         .bounds()
         .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0);
@@ -114,12 +114,6 @@ pub fn camera(view: &View) -> (ImagePlane, f64) {
         .map(|q| q.abs().max_element())
         .fold(0.0, f64::max);
     (plane, if reach > 0.0 { MARGIN * reach } else { 1.0 })
-}
-
-fn targets(view: &View) -> TriMesh {
-    let mut all = TriMesh::default();
-    view.models.iter().for_each(|m| all.append(&m.mesh));
-    all
 }
 
 /// The faces that one ray meets.

@@ -97,6 +97,11 @@ impl Slab {
         })
     }
 
+    /// Whether the bounds depend on where a ray meets the support.
+    pub fn follows_surface(&self) -> bool {
+        self.layer.datum == Datum::Surface
+    }
+
     /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support.
     pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
         match self.layer.datum {
@@ -156,9 +161,5 @@ impl Slab {
     pub fn onto_axis(&self, p: DVec3) -> DVec3 {
         let sideways = self.towards.cross(DVec3::Z);
         p - (p - self.eye).dot(sideways) * sideways
-    }
-
-    pub fn eye(&self) -> DVec3 {
-        self.eye
     }
 }

@@ -26,3 +26,12 @@ pub struct View {
     /// sRGB.
     pub colour: [u8; 3],
 }
+
+impl View {
+    /// All models as one mesh, in place.
+    pub fn target(&self) -> TriMesh {
+        let mut all = TriMesh::default();
+        self.models.iter().for_each(|m| all.append(&m.mesh));
+        all
+    }
+}

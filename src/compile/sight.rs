@@ -4,7 +4,6 @@ use crate::carve::ViewRelief;
 use crate::diag::Diagnostic;
 use crate::geom::ImagePlane;
 use crate::groups::{Groups, groups};
-use crate::mesh::TriMesh;
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
 use crate::view::View;
@@ -34,9 +33,7 @@ pub struct Shape {
 pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Diagnostic>> {
     let failed = |text: String| vec![Diagnostic::error(format!("view \"{}\": {text}", view.name))];
     let plane = ImagePlane::looking_at(view.eye, view.look_at);
-    let mut mesh = TriMesh::default();
-    view.models.iter().for_each(|m| mesh.append(&m.mesh));
-    let target = Target::new(mesh, &plane)
+    let target = Target::new(view.target(), &plane)
         .ok_or_else(|| failed("part of its models lies beside or behind the eye".into()))?;
     let map = view_map(plane, &target, field).map_err(|e| failed(e.to_string()))?;
     let groups = groups(&view.name, &map, &target, field)?;

@@ -3,6 +3,7 @@
 use super::outline::Segment;
 use super::{Cell, Target, ViewMap, ViewMapError, image_box};
 use crate::geom::ImagePlane;
+use crate::mesh::{TriMesh, face_neighbours};
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -51,20 +52,11 @@ pub fn arrange(
 /// Edges of wanted faces, each once, then the outlines.
 fn segments(target: &Target, wanted: &[bool], outlines: &[Segment]) -> Vec<Segment> {
     let mut pairs: Vec<(u32, u32)> = Vec::new();
-    for (f, face) in target
-        .mesh
-        .faces
-        .iter()
-        .enumerate()
-        .filter(|(f, _)| wanted[*f])
-    {
-        let _ = f;
-        pairs.extend((0..3).map(|k| {
-            (
-                face[k].min(face[(k + 1) % 3]),
-                face[k].max(face[(k + 1) % 3]),
-            )
-        }));
+    for (face, _) in target.mesh.faces.iter().zip(wanted).filter(|(_, w)| **w) {
+        for k in 0..3 {
+            let (a, b) = (face[k], face[(k + 1) % 3]);
+            pairs.push((a.min(b), a.max(b)));
+        }
     }
     pairs.sort_unstable();
     pairs.dedup();
@@ -153,20 +145,8 @@ fn triangulate(
 
 /// For every cell the cells across its three sides.
 pub fn neighbours(cells: &[Cell]) -> Vec<[Option<u32>; 3]> {
-    let mut sides: Vec<(u32, u32, u32, usize)> = Vec::with_capacity(3 * cells.len());
-    for (c, cell) in cells.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (cell.corners[k], cell.corners[(k + 1) % 3]);
-            sides.push((a.min(b), a.max(b), c as u32, k));
-        }
-    }
-    sides.sort_unstable();
-    let mut result = vec![[None; 3]; cells.len()];
-    for pair in sides.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
-        if let [x, y] = pair {
-            result[x.2 as usize][x.3] = Some(y.2);
-            result[y.2 as usize][y.3] = Some(x.2);
-        }
-    }
-    result
+    face_neighbours(&TriMesh {
+        vertices: Vec::new(),
+        faces: cells.iter().map(|c| c.corners).collect(),
+    })
 }

@@ -1,5 +1,6 @@
 //! Bad and odd mesh files: none may panic, hang or pass in silence.
 
+use crate::shapes::CUBE_FACES;
 use pillarforest::diag::{Diagnostic, Place, Warned};
 use pillarforest::formats::{inspect, load_model};
 use pillarforest::mesh::TriMesh;
@@ -67,20 +68,6 @@ const CUBE_VERTICES: [[f64; 3]; 8] = [
     [0.0, 20.0, 20.0],
     [20.0, 20.0, 20.0],
 ];
-const CUBE_FACES: [[usize; 3]; 12] = [
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-];
 
 /// A 20 mm cube with other coordinates in place of the first vertex's.
 fn cube_obj(first_vertex: &str) -> String {
@@ -100,7 +87,7 @@ fn cube_stl(declared: u32) -> Vec<u8> {
     for face in CUBE_FACES {
         bytes.extend([0; 12]);
         for v in face {
-            for x in CUBE_VERTICES[v] {
+            for x in CUBE_VERTICES[v as usize] {
                 bytes.extend((x as f32).to_le_bytes());
             }
         }

@@ -1,5 +1,6 @@
 //! What our mesh checks find, on small meshes that each have one property.
 
+use crate::shapes::CUBE_FACES;
 use glam::{DMat4, DQuat, DVec3};
 use pillarforest::mesh::gate::gate;
 use pillarforest::mesh::{
@@ -13,20 +14,7 @@ fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
         .map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64))
         .map(|p| DVec3::from(at) + p * DVec3::from(size))
         .collect();
-    let faces = vec![
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
+    let faces = CUBE_FACES.to_vec();
     TriMesh { vertices, faces }
 }
 

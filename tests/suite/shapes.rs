@@ -10,6 +10,22 @@ pub const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
 pub const BLUE: [u8; 3] = [0x56, 0xB4, 0xE9];
 pub const GREEN: [u8; 3] = [0x00, 0x9E, 0x73];
 
+/// Faces of a box whose corner `k` lies at the bits of `k`: x, y, z.
+pub const CUBE_FACES: [[u32; 3]; 12] = [
+    [0, 2, 3],
+    [0, 3, 1],
+    [4, 5, 7],
+    [4, 7, 6],
+    [0, 1, 5],
+    [0, 5, 4],
+    [2, 6, 7],
+    [2, 7, 3],
+    [0, 4, 6],
+    [0, 6, 2],
+    [1, 3, 7],
+    [1, 7, 5],
+];
+
 /// Corners of a regular polygon, counter-clockwise.
 pub fn ring(centre: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
     (0..corners)
