@@ -85,10 +85,26 @@ impl Bvh {
         hits
     }
 
-    /// Whether anything lies on the ray before `t_max`.
+    /// Whether anything lies on the ray before `t_max`. Stops at the first face found, near or far.
     pub fn blocked(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
-        self.first_hit(origin, direction)
-            .is_some_and(|h| h.t < t_max)
+        if self.triangles.is_empty() {
+            return false;
+        }
+        let woop = WoopRay::new(origin, direction);
+        let mut ray = f32_ray(origin, direction);
+        // Rounded up well past f32 error, as in `first_hit_where`.
+        ray.tmax = (t_max * (1.0 + 1e-5)) as f32;
+        let free = self.tree.ray_traverse_miss(ray, |_, slot| {
+            let face = self.tree.primitive_indices[slot] as usize;
+            let hit = woop.hit(&self.triangles[face]);
+            // Any number below the ray's end counts as a hit, infinity never does.
+            if hit.is_some_and(|t| t < t_max) {
+                0.0
+            } else {
+                f32::INFINITY
+            }
+        });
+        !free
     }
 }
 
@@ -131,14 +147,19 @@ impl WoopRay {
         }
     }
 
+    #[inline]
     fn hit(&self, triangle: &[DVec3; 3]) -> Option<f64> {
+        // Written out: this is the innermost loop of everything, and `map` over arrays is not always inlined.
         let [kx, ky, kz] = self.axes;
-        let p = triangle.map(|v| v - self.origin);
-        let x = p.map(|v| v[kx] - self.shear.x * v[kz]);
-        let y = p.map(|v| v[ky] - self.shear.y * v[kz]);
-        let u = x[2] * y[1] - y[2] * x[1];
-        let v = x[0] * y[2] - y[0] * x[2];
-        let w = x[1] * y[0] - y[1] * x[0];
+        let [a, b, c] = triangle;
+        let (a, b, c) = (*a - self.origin, *b - self.origin, *c - self.origin);
+        let (az, bz, cz) = (a[kz], b[kz], c[kz]);
+        let (ax, ay) = (a[kx] - self.shear.x * az, a[ky] - self.shear.y * az);
+        let (bx, by) = (b[kx] - self.shear.x * bz, b[ky] - self.shear.y * bz);
+        let (cx, cy) = (c[kx] - self.shear.x * cz, c[ky] - self.shear.y * cz);
+        let u = cx * by - cy * bx;
+        let v = ax * cy - ay * cx;
+        let w = bx * ay - by * ax;
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
         }
@@ -146,7 +167,7 @@ impl WoopRay {
         if det == 0.0 {
             return None;
         }
-        let t = (u * p[0][kz] + v * p[1][kz] + w * p[2][kz]) * self.shear.z / det;
+        let t = (u * az + v * bz + w * cz) * self.shear.z / det;
         (t > 0.0).then_some(t)
     }
 }

@@ -19,7 +19,7 @@
 //! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
-//! | forest and views | [`render::view_picture`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
+//! | forest and views | [`render::view_picture`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //!
 //! # Symbols
 //!

@@ -1,12 +1,15 @@
-//! View pictures: what an eye sees, found by casting rays at the finished solid.
+//! View pictures: what an eye sees, found by casting rays at the finished solid. Here in even light, in [`lights`] in real light.
 //!
 //! Takes a view and the finished forest, gives a picture (target | forest | normal error) and the figures under it.
 //! The figures use one ray through every pixel's centre; the pictures are smoothed by four more where neighbours differ.
 //! Rows run in parallel; the result does not depend on the thread count.
 
+mod light_sheet;
+pub mod lights;
 mod shading;
 mod thumbnail;
 
+pub use lights::{LightLikeness, light_pictures};
 pub use thumbnail::thumbnail;
 
 use crate::bvh::Bvh;
@@ -212,14 +215,9 @@ fn compose(view: &View, likeness: &Likeness, pixels: &[[Rgb; 3]], size: usize) -
     let caption = (13.0 * unit).round() as usize;
     let (w, h) = (3 * size + 4 * gap, size + 2 * gap + caption);
     let mut pixmap = raster::blank(w as u32, h as u32);
-    let picture_width = pixmap.width() as usize;
     for panel in 0..3 {
-        let left = gap + panel * (size + gap);
-        for (k, pixel) in pixels.iter().enumerate() {
-            let at = 4 * ((gap + k / size) * picture_width + left + k % size);
-            let rgb = pixel[panel].map(|c| c.round().clamp(0.0, 255.0) as u8);
-            pixmap.data_mut()[at..at + 3].copy_from_slice(&rgb);
-        }
+        let corner = (gap + panel * (size + gap), gap);
+        raster::put_square(&mut pixmap, corner, size, pixels.iter().map(|p| p[panel]));
     }
     let mut drawing = Drawing::new(DVec2::new(w as f64, h as f64));
     let column = |panel: usize| (gap + panel * (size + gap)) as f64;

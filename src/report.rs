@@ -4,7 +4,7 @@
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
 use crate::mesh::Solid;
-use crate::render::Likeness;
+use crate::render::{LightLikeness, Likeness};
 use crate::view::View;
 use glam::{DMat4, DVec3};
 use serde::Serialize;
@@ -79,6 +79,9 @@ pub struct ViewReport {
     /// Rays that the last two figures rest on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rays: Option<usize>,
+    /// How the view looks under suns and under an overcast sky, shadows included.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lights: Option<Vec<LightLikeness>>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

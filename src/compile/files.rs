@@ -1,12 +1,13 @@
 //! The bytes of every output file.
 
 use super::OutputFile;
+use super::pictures::Pictures;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
 use crate::formats::{Camera, Metadata, Part, write_3mf, write_glb, write_stl};
 use crate::mesh::TriMesh;
-use crate::render::{Likeness, camera, thumbnail};
+use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
 use crate::support::SupportKind;
 use crate::view::View;
@@ -120,14 +121,14 @@ pub fn counts(scene: &Scene) -> String {
     format!("{} pillars, {} views", pillars(scene), scene.views.len())
 }
 
-pub fn summary(scene: &Scene, forest: &Forest, pictures: &[(Likeness, Vec<u8>)]) -> String {
+pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
     let (lo, hi) = forest.whole.bounds();
     let size = hi - lo;
     let likeness: Vec<String> = scene
         .views
         .iter()
         .zip(pictures)
-        .map(|(v, p)| format!("{} {:.1} deg", v.name, p.0.mean_deg))
+        .map(|(v, p)| format!("{} {:.1} deg", v.name, p.likeness.mean_deg))
         .collect();
     format!(
         "{} pillars, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",

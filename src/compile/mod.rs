@@ -4,16 +4,16 @@
 //! Views are independent until the solids are united and run in parallel; nothing depends on the thread count.
 
 mod files;
+mod pictures;
 mod sight;
 mod summary;
 
-use crate::bvh::Bvh;
 use crate::carve::{Forest, ViewRelief, carve};
 use crate::diag::Diagnostic;
-use crate::render::{Likeness, view_picture};
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
 use files::{counts, file, plan_files, printable_files, summary};
+use pictures::{picture_files, pictures};
 use rayon::prelude::*;
 use sight::see;
 use summary::report;
@@ -95,8 +95,6 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     let report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
     progress("files", 0.9);
     let summary = summary(scene, &forest, &pictures);
-    let drawn = scene.views.iter().zip(pictures);
-    let drawn = drawn.map(|(v, p)| file(format!("views/{}.png", v.name), p.1));
     let mut files = Vec::new();
     if goal == Goal::All {
         files.extend(printable_files(scene, &forest));
@@ -105,9 +103,8 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         }
         files.push(file("report.json", report.json().into_bytes()));
     }
-    if goal == Goal::Pictures || scene.output.views {
-        files.extend(drawn);
-    }
+    let views = goal == Goal::Pictures || scene.output.views;
+    files.extend(picture_files(scene, pictures, views));
     Ok(Build {
         files,
         summary,
@@ -136,15 +133,4 @@ fn all<T: Send>(
     } else {
         Err(bad.into_iter().filter_map(Result::err).flatten().collect())
     }
-}
-
-/// The picture of every view, with its figures.
-fn pictures(scene: &Scene, forest: &Forest) -> Vec<(Likeness, Vec<u8>)> {
-    let mesh = forest.whole.mesh();
-    let bvh = Bvh::new(mesh);
-    scene
-        .views
-        .iter()
-        .map(|v| view_picture(v, mesh, &bvh, None, scene.output.picture_size))
-        .collect()
 }

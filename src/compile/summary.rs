@@ -1,9 +1,9 @@
 //! The report of a finished forest.
 
+use super::pictures::Pictures;
 use super::sight::{Shape, Sight};
 use crate::carve::Forest;
 use crate::diag::Diagnostic;
-use crate::render::Likeness;
 use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
 use crate::scene::Scene;
 
@@ -13,14 +13,14 @@ pub fn report(
     sights: &[Sight],
     shapes: &[Shape],
     forest: &Forest,
-    pictures: &[(Likeness, Vec<u8>)],
+    pictures: &[Pictures],
     warnings: &[Diagnostic],
 ) -> Report {
     let views = sights
         .iter()
         .zip(shapes)
         .zip(pictures)
-        .map(|((sight, shape), (likeness, _))| {
+        .map(|((sight, shape), drawn)| {
             let solved = &shape.depths.solved;
             ViewReport {
                 solid_angle_sr: Some(sight.solid_angles().0),
@@ -41,7 +41,8 @@ pub fn report(
                     dual_residual: solved.dual_residual,
                     duality_gap_rel: solved.gap,
                 }),
-                ..ViewReport::new(sight.view).with_likeness(likeness)
+                lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
+                ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)
             }
         });
     let repairs = &forest.repairs;

@@ -36,6 +36,21 @@ pub fn blank(width: u32, height: u32) -> Pixmap {
     pixmap
 }
 
+/// Puts a square of colours (sRGB, 0 to 255, by rows) into a picture; `corner` is where its top left pixel goes.
+pub fn put_square(
+    pixmap: &mut Pixmap,
+    corner: (usize, usize),
+    side: usize,
+    colours: impl Iterator<Item = [f32; 3]>,
+) {
+    let across = pixmap.width() as usize;
+    for (k, rgb) in colours.enumerate() {
+        let at = 4 * ((corner.1 + k / side) * across + corner.0 + k % side);
+        let rgb = rgb.map(|c| c.round().clamp(0.0, 255.0) as u8);
+        pixmap.data_mut()[at..at + 3].copy_from_slice(&rgb);
+    }
+}
+
 /// The bytes of a PNG file.
 pub fn encode(pixmap: &Pixmap) -> Vec<u8> {
     pixmap.encode_png().expect("writing a PNG to memory")

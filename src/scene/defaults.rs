@@ -57,6 +57,7 @@ pub const OUTPUT: Output = Output {
     forest_glb: true,
     plan: true,
     views: true,
+    lights: true,
     picture_size: 640,
     plan_width: 2000,
 };

@@ -58,6 +58,8 @@ pub struct Output {
     pub forest_glb: bool,
     pub plan: bool,
     pub views: bool,
+    /// Figures and pictures of the views in real light.
+    pub lights: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

@@ -83,6 +83,7 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         forest_glb: flag(reader, &raw.forest_glb, under.forest_glb),
         plan: flag(reader, &raw.plan, under.plan),
         views: flag(reader, &raw.views, under.views),
+        lights: flag(reader, &raw.lights, under.lights),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }

@@ -332,25 +332,32 @@ fn drafts(
         let Some(draft) = draft(reader, raw, &span, index, models) else {
             continue;
         };
-        if drafts
-            .iter()
-            .any(|d| d.name.to_lowercase() == draft.name.to_lowercase())
-        {
+        if let Some(clash) = drafts.iter().find_map(|d| clash(&d.name, &draft.name)) {
             let at = match &raw.name {
                 Field::Given(name) => reader.span(name),
                 Field::Missing => span,
             };
-            reader.error(
-                &at,
-                format!(
-                    "two views are named \"{}\": their pictures would overwrite each other",
-                    draft.name
-                ),
-            );
+            reader.error(&at, clash);
         }
         drafts.push(draft);
     }
     drafts
+}
+
+/// Why two views may not have these names, if so: some file systems take capitals for small letters.
+fn clash(first: &str, second: &str) -> Option<String> {
+    let [a, b] = [first, second].map(str::to_lowercase);
+    if a == b {
+        Some(format!(
+            "two views are named \"{second}\": their pictures would overwrite each other"
+        ))
+    } else if a == format!("{b}-lights") || b == format!("{a}-lights") {
+        Some(format!(
+            "views named \"{first}\" and \"{second}\" would overwrite each other's pictures"
+        ))
+    } else {
+        None
+    }
 }
 
 fn draft(

@@ -6,6 +6,7 @@ mod diagram;
 mod formats;
 mod golden;
 mod hostile;
+mod lights;
 mod meshes;
 mod numerics;
 mod readme;

@@ -145,7 +145,10 @@ fn every_scene_gives_every_file_and_no_warning() {
         ]
         .map(String::from)
         .to_vec();
-        wanted.extend(scene.views.iter().map(|v| format!("views/{}.png", v.name)));
+        for view in &scene.views {
+            wanted.push(format!("views/{}.png", view.name));
+            wanted.push(format!("views/{}-lights.png", view.name));
+        }
         wanted.sort_unstable();
         assert_eq!(found, wanted, "{name}");
         assert!(build.warnings.is_empty(), "{name}: {:?}", build.warnings);

@@ -1,0 +1,43 @@
+//! The pictures of a finished forest, and the figures they give.
+
+use super::OutputFile;
+use super::files::file;
+use crate::bvh::Bvh;
+use crate::carve::Forest;
+use crate::render::{LightLikeness, Likeness, light_pictures, view_picture};
+use crate::scene::Scene;
+
+/// One view's pictures (PNG) and figures.
+pub struct Pictures {
+    pub likeness: Likeness,
+    pub view: Vec<u8>,
+    /// In real light, if the scene wants it.
+    pub lights: Option<(Vec<LightLikeness>, Vec<u8>)>,
+}
+
+/// The pictures of every view.
+pub fn pictures(scene: &Scene, forest: &Forest) -> Vec<Pictures> {
+    let mesh = forest.whole.mesh();
+    let bvh = Bvh::new(mesh);
+    let of_view = |v| {
+        let (likeness, view) = view_picture(v, mesh, &bvh, None, scene.output.picture_size);
+        Pictures {
+            likeness,
+            view,
+            lights: (scene.output.lights).then(|| light_pictures(v, mesh, &bvh)),
+        }
+    };
+    scene.views.iter().map(of_view).collect()
+}
+
+/// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.
+pub fn picture_files(scene: &Scene, pictures: Vec<Pictures>, views: bool) -> Vec<OutputFile> {
+    let mut files = Vec::new();
+    for (view, drawn) in scene.views.iter().zip(pictures) {
+        let name = &view.name;
+        files.extend(views.then(|| file(format!("views/{name}.png"), drawn.view)));
+        let sheet = |(_, png)| file(format!("views/{name}-lights.png"), png);
+        files.extend(drawn.lights.map(sheet));
+    }
+    files
+}

@@ -1,0 +1,140 @@
+//! The contact sheet of a view in several lights: a column for each light, the model above the forest, figures below.
+
+use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
+use crate::diagram::lettering::{Face, width};
+use crate::diagram::raster;
+use crate::render::lights::{DARK, LightLikeness, Lit, SIDE, SPAN, SUNS_DEG, Stage};
+use crate::render::shading::{self, Rgb};
+use crate::render::{QUIET, TEXT};
+use crate::view::View;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Lights, and columns.
+const COLUMNS: usize = SUNS_DEG.len() + 1;
+
+/// Model and forest in every light.
+type Panels = [Rgb; 2 * COLUMNS];
+
+/// Rays across a measured pixel. The picture is that much finer; how much of the sky is seen is not.
+const FINER: usize = 2;
+
+/// Side of a panel, pixels.
+const PANEL: usize = FINER * SIDE;
+
+/// Layout in pixels: between the panels, above them and below them.
+const GAP: usize = 8;
+const HEAD: usize = 26;
+const FOOT: usize = 64;
+
+/// A PNG. `pixels` are the stage's, by rows of [`SIDE`]; `figures` one for each column.
+pub fn sheet(
+    view: &View,
+    stage: &Stage,
+    pixels: &[[Option<Lit>; 2]],
+    figures: &[LightLikeness],
+) -> Vec<u8> {
+    let panels: Vec<Panels> = (0..PANEL * PANEL)
+        .into_par_iter()
+        .map(|k| {
+            let [x, y] = [k % PANEL, k / PANEL].map(|i| (i as f64 + 0.5) / FINER as f64);
+            panels(&stage.lit_near(x, y, &pixels[y as usize * SIDE + x as usize]))
+        })
+        .collect();
+    let across = COLUMNS * PANEL + (COLUMNS + 1) * GAP;
+    let down = HEAD + 2 * PANEL + GAP + FOOT;
+    let mut pixmap = raster::blank(across as u32, down as u32);
+    for panel in 0..2 * COLUMNS {
+        let corner = (
+            column(panel % COLUMNS),
+            HEAD + panel / COLUMNS * (PANEL + GAP),
+        );
+        raster::put_square(&mut pixmap, corner, PANEL, panels.iter().map(|p| p[panel]));
+    }
+    let mut drawing = Drawing::new(DVec2::new(across as f64, down as f64));
+    captions(&mut drawing, view, figures);
+    drawing.paint(&mut pixmap, 1.0);
+    raster::encode(&pixmap)
+}
+
+/// Left edge of a column, pixels.
+fn column(k: usize) -> usize {
+    GAP + k * (PANEL + GAP)
+}
+
+/// Colours of one pixel, the model's panels first. Suns are the left ones.
+fn panels(lit: &[Option<Lit>; 2]) -> Panels {
+    std::array::from_fn(|panel| {
+        let lamp = 2 * (panel % COLUMNS);
+        lit[panel / COLUMNS].map_or(shading::BACKGROUND, |lit| {
+            let brightness = DARK + SPAN * lit[lamp].shade();
+            shading::scaled(shading::PLASTER, brightness / (DARK + SPAN))
+        })
+    })
+}
+
+fn captions(drawing: &mut Drawing, view: &View, figures: &[LightLikeness]) {
+    let head = TextStyle {
+        size: 13.0,
+        ink: TEXT,
+        face: Face::Regular,
+        anchor: Anchor::Start,
+        halo: None,
+    };
+    let body = TextStyle {
+        size: 10.0,
+        ink: QUIET,
+        face: Face::Light,
+        ..head
+    };
+    let mut put = |x: usize, y: usize, text: &str, style: TextStyle, most: usize| {
+        let fit = (most as f64 / width(text, style.size, style.face).max(1e-9)).min(1.0);
+        let style = TextStyle {
+            size: style.size * fit,
+            ..style
+        };
+        drawing.text(DVec2::new(x as f64, y as f64), text, style);
+    };
+    let title = format!(
+        "{}: the target above, the forest below, with the shadows they cast",
+        view.name
+    );
+    put(column(0), HEAD - 9, &title, head, column(COLUMNS) - 2 * GAP);
+    let below = HEAD + 2 * PANEL + GAP;
+    for (k, f) in figures.iter().enumerate() {
+        let lines = [
+            (18, name(f), head),
+            (33, differences(f), body),
+            (46, shadows(f), body),
+        ];
+        for (down, text, style) in lines {
+            put(column(k), below + down, &text, style, PANEL);
+        }
+    }
+}
+
+fn name(f: &LightLikeness) -> String {
+    match f.elevation_deg {
+        Some(elevation) => format!("sun at {elevation:.0}°, from the left"),
+        None => "overcast sky".into(),
+    }
+}
+
+/// Figures of a sun are those of the left and the right one.
+fn differences(f: &LightLikeness) -> String {
+    format!(
+        "rms difference {:.1} of 255, {:.1} at equal brightness",
+        f.rmse, f.rmse_fitted
+    )
+}
+
+fn shadows(f: &LightLikeness) -> String {
+    match (f.false_shadow_share, f.lost_shadow_share) {
+        (Some(added), Some(lost)) => format!(
+            "shadows added on {:.1} %, lost on {:.1} %",
+            100.0 * added,
+            100.0 * lost
+        ),
+        _ => format!("lit {:.2} times as brightly it comes closest", f.gain),
+    }
+}
