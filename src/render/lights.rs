@@ -35,8 +35,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Side of the measured picture, pixels. The reference forest's figures are within 1 % of those at 240, which take twice
-/// as long.
+/// Side of the measured picture, pixels. On the reference forest and the bundled one every sun's rmse is within 1.5 % of that at
+/// 240, the shares of shadow within 0.013; 240 take twice as long.
 pub const SIDE: usize = 160;
 
 /// Elevations of the suns, degrees, in the order of the figures.

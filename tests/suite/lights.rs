@@ -182,6 +182,25 @@ fn a_long_wall_takes_its_part_of_the_sky_from_the_floor() {
     }
 }
 
+#[test]
+fn a_ray_is_blocked_if_its_first_hit_is_near_enough() {
+    let mesh = both(
+        &ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 16),
+        &ball(DVec3::new(14.0, -9.0, 24.0), 5.0, 10),
+    );
+    let bvh = Bvh::new(&mesh);
+    let mut blocked = 0;
+    for w in sky(200) {
+        for t_max in [5.0, 12.0, 20.0, 40.0, f64::INFINITY] {
+            let origin = DVec3::new(1.0, 1.0, 0.0);
+            let wanted = bvh.first_hit(origin, w).is_some_and(|h| h.t < t_max);
+            assert_eq!(bvh.blocked(origin, w, t_max), wanted, "{w} {t_max}");
+            blocked += usize::from(wanted);
+        }
+    }
+    assert!((20..980).contains(&blocked), "{blocked}");
+}
+
 const EYE: DVec3 = DVec3::new(100.0, 0.0, 20.0);
 const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 20.0);
 
