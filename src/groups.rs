@@ -129,6 +129,19 @@ pub fn groups(
     })
 }
 
+/// The same groups with bounds for another mesh of the same surface: `map` and `target` are those of the cut surface.
+pub fn with_bounds(
+    groups: &Groups,
+    map: &ViewMap,
+    target: &Target,
+    field: &SupportField,
+) -> Groups {
+    Groups {
+        bounds: bounds(map, target, field, &groups.groups, &groups.of_cell, &groups.slabs),
+        ..groups.clone()
+    }
+}
+
 /// Flood fill over equal labels.
 fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Option<u32>>) {
     let mut of_cell = vec![None; labels.len()];

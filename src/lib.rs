@@ -62,6 +62,8 @@ pub mod laplacian;
 
 pub mod mimic;
 
+pub mod steps;
+
 pub mod relief;
 
 pub mod carve;

@@ -5,6 +5,7 @@
 
 use crate::mesh::Solid;
 use crate::render::{LightLikeness, Likeness};
+use crate::steps::StepSummary;
 use crate::view::View;
 use glam::{DMat4, DVec3};
 use serde::Serialize;
@@ -69,6 +70,9 @@ pub struct ViewReport {
     /// Largest distance a point was moved along its ray to stay within its layer after solving, millimetres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_mm: Option<f64>,
+    /// Where the surface was torn into steps, if it might be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<StepSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramReport>,
     /// Share of the rays at the models that meet the forest.

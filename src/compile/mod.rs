@@ -80,7 +80,7 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         });
     }
     progress("quadratic programs", 0.15);
-    let shapes = all(sights.par_iter().map(|s| s.shape(scene.energy, &field)))?;
+    let shapes = all(sights.par_iter().map(|s| s.shape(scene, &field)))?;
     progress("solids", 0.45);
     let reliefs: Vec<ViewRelief> = sights
         .iter()

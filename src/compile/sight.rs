@@ -6,6 +6,8 @@ use crate::geom::ImagePlane;
 use crate::groups::{Groups, groups};
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
+use crate::scene::Scene;
+use crate::steps::{StepLine, StepSummary, torn};
 use crate::view::View;
 use crate::viewmap::{SupportField, Target, ViewMap, view_map};
 
@@ -24,6 +26,8 @@ pub struct Sight<'a> {
 pub struct Shape {
     pub depths: Depths,
     pub relief: Relief,
+    /// Where the surface was torn, if it might be.
+    pub steps: Option<(Vec<StepLine>, StepSummary)>,
 }
 
 /// Projects, maps and groups one view.
@@ -106,11 +110,23 @@ impl Sight<'_> {
     }
 
     /// Optimises, cuts and scales back.
-    pub fn shape(&self, energy: Energy, field: &SupportField) -> Result<Shape, Vec<Diagnostic>> {
-        let depths = depths(energy, &self.target, &self.map, field, &self.groups)
-            .map_err(|e| vec![self.explain(e, field)])?;
-        let relief = relief(&self.map, &self.target, field, &self.groups, &depths);
-        Ok(Shape { depths, relief })
+    pub fn shape(&self, scene: &Scene, field: &SupportField) -> Result<Shape, Vec<Diagnostic>> {
+        let Self { target, map, groups, .. } = self;
+        let explained = |e| vec![self.explain(e, field)];
+        if let (Energy::Normal(options), Some(steps)) = (scene.energy, &scene.steps) {
+            let torn = torn(steps, options, target, map, field, groups).map_err(explained)?;
+            return Ok(Shape {
+                relief: relief(&torn.map, &torn.target, field, &torn.groups, &torn.depths),
+                depths: torn.depths,
+                steps: Some((torn.lines, torn.summary)),
+            });
+        }
+        let depths = depths(scene.energy, target, map, field, groups).map_err(explained)?;
+        Ok(Shape {
+            relief: relief(map, target, field, groups, &depths),
+            depths,
+            steps: None,
+        })
     }
 
     /// A solver's failure in terms of the scene: the pillar and the bounds in conflict.
@@ -123,7 +139,7 @@ impl Sight<'_> {
         let (bound, limit) = match kind {
             RowKind::Near(b) => (self.groups.bounds.get(b as usize), "nearest"),
             RowKind::Far(b) => (self.groups.bounds.get(b as usize), "farthest"),
-            RowKind::Order(_) => (None, ""),
+            RowKind::Order(_) | RowKind::Step(_) => (None, ""),
         };
         let Some(bound) = bound else {
             return Diagnostic::error(format!(

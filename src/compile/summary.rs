@@ -31,6 +31,7 @@ pub fn report(
                 groups: Some(sight.groups.groups.len()),
                 cells: Some(sight.map.cells.len()),
                 clamp_mm: Some(shape.relief.clamp_mm),
+                steps: shape.steps.as_ref().map(|s| s.1),
                 program: Some(ProgramReport {
                     variables: solved.variables,
                     rows: solved.rows,

@@ -52,6 +52,7 @@ pub fn depths(
         .for_each(|i| quadratic.square(i, 1.0));
     let program = Program {
         variables: n + groups.groups.len(),
+        linear: vec![0.0; n + groups.groups.len()],
         quadratic: quadratic.finish(),
         equalities: gauge(target, groups, orders, &areas),
         rows: rows(n, groups, orders),

@@ -43,6 +43,9 @@ pub struct NormalOptions {
     pub weight: FaceWeight,
     /// Keep the depth order of sheets that overlap in the image (paper Eq 12).
     pub ordering: bool,
+    /// Rounds of reweighting, which gather the error in few faces: each solves again with every face's weight times
+    /// `theta / tan^2 theta` of the last solution (iteratively reweighted least squares for the sum of `theta`).
+    pub reweight: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,9 +86,44 @@ pub fn depths(
         Vec::new()
     };
     match energy {
-        Energy::Normal(options) => normal::depths(options, target, map, groups, &orders),
+        Energy::Normal(options) => normal::depths(options, target, map, groups, &orders, None),
         Energy::Curvature(options) => curvature::depths(options, target, map, groups, &orders),
     }
+}
+
+/// A step between two vertices of a cut mesh that stand on one ray: `least <= x_far - x_near <= most`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    pub near: u32,
+    pub far: u32,
+    pub least: f64,
+    pub most: f64,
+}
+
+/// What a cut mesh brings along: a surface near the optimum, and the steps to keep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// Log relief depth over the model's of every vertex; pieces that are free stay near it.
+    pub start: Vec<f64>,
+    /// Force on every vertex, positive away from the eye, relative to the mean diagonal of the quadratic form.
+    pub push: Vec<f64>,
+    pub steps: Vec<Step>,
+}
+
+/// [`depths`] of a mesh cut at the outlines of supports, under [`Energy::Normal`]. Every piece has its own scale then, so that
+/// those of the groups are 1.
+///
+/// # Errors
+/// As [`depths`].
+pub fn opened_depths(
+    options: NormalOptions,
+    target: &Target,
+    map: &ViewMap,
+    groups: &Groups,
+    orders: &[Order],
+    opening: &Opening,
+) -> Result<Depths, SolveError> {
+    normal::depths(options, target, map, groups, orders, Some(opening))
 }
 
 /// The solid angle seen of every face, steradians.

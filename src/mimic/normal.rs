@@ -7,7 +7,9 @@
 
 use super::ordering::Order;
 use super::program::{Program, Quadratic, Row, RowKind, mean_diagonal};
-use super::{Depths, FaceWeight, NormalOptions, SolveError, scales, seen_solid_angles, solve};
+use super::{
+    Depths, FaceWeight, NormalOptions, Opening, SolveError, scales, seen_solid_angles, solve,
+};
 use crate::groups::{Anchor, Groups};
 use crate::laplacian::FaceGeometry;
 use crate::viewmap::{Target, ViewMap};
@@ -18,6 +20,10 @@ const LEAST_SEEN: f64 = 0.02;
 /// nothing moves by a micrometre; at 1e-5 long waves shrink visibly.
 const REGULARISER: f64 = 1e-8;
 
+/// Faces turned by less than this (tangent, 0.06 degrees) count as turned by it in reweighting: below, weights of right
+/// faces grow until the matrix loses digits.
+const LEAST_TURN: f64 = 1e-3;
+
 /// Depths of the visible sub-mesh.
 pub fn depths(
     options: NormalOptions,
@@ -25,31 +31,53 @@ pub fn depths(
     map: &ViewMap,
     groups: &Groups,
     orders: &[Order],
+    opening: Option<&Opening>,
 ) -> Result<Depths, SolveError> {
     let seen = seen_solid_angles(target, map);
     let index = Variables::new(target, &seen);
     let unit = typical_width(groups);
-    let mut quadratic = Quadratic::new(index.count + groups.groups.len());
-    add_faces(&mut quadratic, options.weight, target, map, &seen, &index);
-    let energy = quadratic.finish();
-    let mean = mean_diagonal(&energy, index.count);
-    let program = Program {
-        variables: index.count + groups.groups.len(),
-        quadratic: regularised(energy, mean),
+    let scales_of_groups = if opening.is_some() { 0 } else { groups.groups.len() };
+    let variables = index.count + scales_of_groups;
+    let faces = Faces::new(options.weight, target, map, &seen);
+    let mut rows = rows(groups, orders, &index, unit, opening.is_none());
+    rows.extend(opening.iter().flat_map(|o| step_rows(o, &index, unit)));
+    let mut program = Program {
+        variables,
+        linear: linear(opening, &index, unit, variables),
+        quadratic: faces.energy(&index, variables, &|_| 1.0),
         equalities: Vec::new(),
-        rows: rows(groups, orders, &index, unit),
+        rows,
     };
-    let (u, solved) = solve(&program)?;
+    let (mut u, mut solved) = solve(&program)?;
+    for _ in 0..options.reweight {
+        let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
+        program.quadratic = faces.energy(&index, variables, &|f| reweighted(turned(f)));
+        (u, solved) = solve(&program)?;
+    }
     let s: Vec<f64> = index
         .of_vertex
         .iter()
         .map(|i| i.map_or(1.0, |i| (u[i as usize] * unit).exp()))
         .collect();
-    Ok(Depths {
-        mu: scales(groups, &s),
-        s,
-        solved,
-    })
+    let mu = if opening.is_some() {
+        vec![1.0; groups.groups.len()]
+    } else {
+        scales(groups, &s)
+    };
+    Ok(Depths { mu, s, solved })
+}
+
+/// The regulariser's pull to where the surface starts, and the forces on it.
+fn linear(opening: Option<&Opening>, index: &Variables, unit: f64, variables: usize) -> Vec<f64> {
+    let mut linear = vec![0.0; variables];
+    for opening in opening {
+        for (v, i) in index.of_vertex.iter().enumerate() {
+            if let Some(i) = i {
+                linear[*i as usize] = -REGULARISER * opening.start[v] / unit - opening.push[v];
+            }
+        }
+    }
+    linear
 }
 
 /// Where each vertex's `x` stands among the unknowns; vertices of unseen faces have none.
@@ -82,6 +110,11 @@ impl Variables {
         }
     }
 
+    /// The variable of a vertex of a seen face.
+    fn at(&self, vertex: u32) -> usize {
+        self.of_vertex[vertex as usize].expect("corners of seen faces take part") as usize
+    }
+
     /// Terms of `factor * sum of weight * x` over the anchor's vertices.
     fn terms(&self, anchor: &Anchor, factor: f64) -> Vec<(usize, f64)> {
         anchor
@@ -107,41 +140,70 @@ fn typical_width(groups: &Groups) -> f64 {
         .unwrap_or(1.0)
 }
 
-fn add_faces(
-    quadratic: &mut Quadratic,
-    weight: FaceWeight,
-    target: &Target,
-    map: &ViewMap,
-    seen: &[f64],
-    index: &Variables,
-) {
-    let geometry = FaceGeometry::new(&target.mesh);
-    let eye = map.plane.eye;
-    for (f, face) in target
-        .mesh
-        .faces
-        .iter()
-        .enumerate()
-        .filter(|(f, _)| seen[*f] > 0.0)
-    {
-        let [a, b, c] = target.mesh.corners(f).map(|p| p - eye);
-        let h = target.mesh.normal(f).dot(a).abs();
-        let density = match weight {
-            FaceWeight::Area => 1.0,
-            FaceWeight::SolidAngle => {
-                let whole = crate::geom::solid_angle(a, b, c).abs();
-                seen[f].max(LEAST_SEEN * whole) / geometry.areas[f]
-            }
+/// Weight `theta / tan^2 theta` of a face turned by `tan theta = tangent`.
+fn reweighted(tangent: f64) -> f64 {
+    let tangent = tangent.max(LEAST_TURN);
+    tangent.atan() / (tangent * tangent)
+}
+
+/// The seen faces: `tan^2 theta = sum over k of turn_k (x_(k+1) - x_(k+2))^2`, and how much each counts.
+struct Faces {
+    /// Corners, `turn`, weight.
+    faces: Vec<([u32; 3], [f64; 3], f64)>,
+}
+
+impl Faces {
+    fn new(weight: FaceWeight, target: &Target, map: &ViewMap, seen: &[f64]) -> Self {
+        let geometry = FaceGeometry::new(&target.mesh);
+        let eye = map.plane.eye;
+        let face = |f: usize| {
+            let [a, b, c] = target.mesh.corners(f).map(|p| p - eye);
+            let h = target.mesh.normal(f).dot(a).abs();
+            let area = geometry.areas[f];
+            let weight = match weight {
+                FaceWeight::Area => area,
+                FaceWeight::SolidAngle => {
+                    let whole = crate::geom::solid_angle(a, b, c).abs();
+                    seen[f].max(LEAST_SEEN * whole)
+                }
+            };
+            let turn = geometry.cotangents[f].map(|cot| h * h * cot / (2.0 * area));
+            (target.mesh.faces[f], turn, weight)
         };
-        for k in 0..3 {
-            let ends = [face[(k + 1) % 3], face[(k + 2) % 3]]
-                .map(|v| index.of_vertex[v as usize].expect("corners of seen faces take part"));
-            quadratic.difference(
-                ends[0] as usize,
-                ends[1] as usize,
-                density * h * h * geometry.cotangents[f][k] / 2.0,
-            );
+        let seen = (0..seen.len()).filter(|f| seen[*f] > 0.0);
+        Self {
+            faces: seen.map(face).collect(),
         }
+    }
+
+    /// The quadratic form with every face's weight times `factor` (index: seen face), scaled and regularised.
+    fn energy(
+        &self,
+        index: &Variables,
+        variables: usize,
+        factor: &dyn Fn(usize) -> f64,
+    ) -> sprs::CsMat<f64> {
+        let mut quadratic = Quadratic::new(variables);
+        for (n, (corners, turn, weight)) in self.faces.iter().enumerate() {
+            let at = corners.map(|v| index.at(v));
+            for k in 0..3 {
+                let (i, j) = (at[(k + 1) % 3], at[(k + 2) % 3]);
+                quadratic.difference(i, j, factor(n) * weight * turn[k]);
+            }
+        }
+        let energy = quadratic.finish();
+        let mean = mean_diagonal(&energy, index.count);
+        regularised(energy, mean)
+    }
+
+    /// `tan theta` of a seen face under the depths `x` of the variables.
+    fn turned(&self, n: usize, index: &Variables, x: impl Fn(usize) -> f64) -> f64 {
+        let (corners, turn, _) = &self.faces[n];
+        let x = corners.map(|v| x(index.at(v)));
+        let square: f64 = (0..3)
+            .map(|k| turn[k] * (x[(k + 1) % 3] - x[(k + 2) % 3]).powi(2))
+            .sum();
+        square.max(0.0).sqrt()
     }
 }
 
@@ -155,12 +217,19 @@ fn regularised(energy: sprs::CsMat<f64>, mean: f64) -> sprs::CsMat<f64> {
     triplets.to_csc()
 }
 
-fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64) -> Vec<Row> {
+/// Bounds (Eq 11) and orders (Eq 12), on `x - m` where groups have scales and on `x` where they are 1.
+fn rows(
+    groups: &Groups,
+    orders: &[Order],
+    index: &Variables,
+    unit: f64,
+    scaled: bool,
+) -> Vec<Row> {
     let m = |g: u32| index.count + g as usize;
     let mut rows = Vec::with_capacity(2 * groups.bounds.len() + orders.len());
     for (i, bound) in groups.bounds.iter().enumerate() {
         let mut far = index.terms(&bound.anchor, 1.0);
-        far.push((m(bound.group), -1.0));
+        far.extend(scaled.then(|| (m(bound.group), -1.0)));
         let near = far.iter().map(|(j, v)| (*j, -v)).collect();
         rows.push(Row {
             kind: RowKind::Far(i as u32),
@@ -176,7 +245,7 @@ fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64) -> Vec<
     for (i, order) in orders.iter().enumerate() {
         let mut terms = index.terms(&order.front, 1.0);
         terms.extend(index.terms(&order.back, -1.0));
-        if order.front_group != order.back_group {
+        if scaled && order.front_group != order.back_group {
             terms.extend([(m(order.front_group), -1.0), (m(order.back_group), 1.0)]);
         }
         rows.push(Row {
@@ -184,6 +253,27 @@ fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64) -> Vec<
             terms,
             limit: -order.ratio.ln() / unit,
         });
+    }
+    rows
+}
+
+/// Both limits of every step.
+fn step_rows(opening: &Opening, index: &Variables, unit: f64) -> Vec<Row> {
+    let at = |v: u32| index.of_vertex[v as usize].map(|i| i as usize);
+    let mut rows = Vec::with_capacity(opening.steps.len());
+    for (i, step) in opening.steps.iter().enumerate() {
+        let (Some(near), Some(far)) = (at(step.near), at(step.far)) else {
+            continue;
+        };
+        let row = |sign: f64, limit: f64| Row {
+            kind: RowKind::Step(i as u32),
+            terms: vec![(near, sign), (far, -sign)],
+            limit,
+        };
+        rows.push(row(1.0, -step.least / unit));
+        if step.most.is_finite() {
+            rows.push(row(-1.0, step.most / unit));
+        }
     }
     rows
 }

@@ -1,4 +1,4 @@
-//! A convex quadratic program in the form every energy is brought to: minimise `u'Pu / 2` subject to sparse rows.
+//! A convex quadratic program in the form every energy is brought to: minimise `u'Pu / 2 + q'u` subject to sparse rows.
 
 use sprs::{CsMat, TriMat};
 
@@ -11,6 +11,8 @@ pub enum RowKind {
     Far(u32),
     /// A depth order (by index).
     Order(u32),
+    /// A step of a cut mesh (by index).
+    Step(u32),
 }
 
 /// `sum of coefficient * u[variable] <= limit`.
@@ -27,6 +29,8 @@ pub struct Program {
     pub variables: usize,
     /// Upper triangle of `P`, `variables` x `variables`, compressed columns.
     pub quadratic: CsMat<f64>,
+    /// `q`.
+    pub linear: Vec<f64>,
     /// Equalities `sum = value`.
     pub equalities: Vec<(Vec<(usize, f64)>, f64)>,
     pub rows: Vec<Row>,

@@ -51,8 +51,7 @@ pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
         presolve_enable: false,
         ..DefaultSettings::default()
     };
-    let zero = vec![0.0; program.variables];
-    let mut solver = DefaultSolver::new(&p, &zero, &a, &b, &cones, settings)
+    let mut solver = DefaultSolver::new(&p, &program.linear, &a, &b, &cones, settings)
         .map_err(|e| SolveError::Unsolved(e.to_string()))?;
     solver.solve();
     let (solution, info) = (&solver.solution, &solver.info);

@@ -26,6 +26,7 @@ pub use set::set;
 pub use template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 
 use crate::mimic::Energy;
+use crate::steps::StepOptions;
 use crate::support::Support;
 use crate::view::View;
 
@@ -38,6 +39,8 @@ pub struct Scene {
     /// Pillars first, the base (if any) last.
     pub supports: Vec<Support>,
     pub energy: Energy,
+    /// `None`: the surface stays in one piece, as in the paper.
+    pub steps: Option<StepOptions>,
     pub printer: Printer,
     pub output: Output,
 }

@@ -1,11 +1,14 @@
 //! The small sections of a scene: energy, printer, output.
 
 use super::defaults;
-use super::raw::{RawEnergy, RawOutput, RawPrinter, RawWeight};
+use super::raw::{
+    RawEnergy, RawOutput, RawPrefer, RawPrinter, RawStepOptions, RawSteps, RawWeight,
+};
 use super::reader::Reader;
 use super::spanned::Field;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use crate::scene::{Output, Printer};
+use crate::steps::{Prefer, StepLimits, StepOptions};
 
 /// What is minimised, and how.
 pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
@@ -24,6 +27,9 @@ pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
             Energy::Normal(NormalOptions {
                 weight,
                 ordering: flag(reader, &raw.ordering, defaults::NORMAL.ordering),
+                reweight: reader
+                    .count(&raw.reweight, "reweight", defaults::REWEIGHT)
+                    .map_or(defaults::NORMAL.reweight, |(v, _)| v),
             })
         }
         Some(RawEnergy::Curvature(raw)) => {
@@ -41,6 +47,69 @@ pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
                 ordering,
             })
         }
+    }
+}
+
+/// Whether the surface may tear, and how; only the normal energy can.
+pub fn steps(
+    reader: &mut Reader,
+    field: &Field<RawEnergy>,
+    pillars: usize,
+    printer: &Printer,
+) -> Option<StepOptions> {
+    let default = StepOptions {
+        narrowest_mm: printer.nozzle,
+        ..defaults::STEPS
+    };
+    let by_default = (pillars >= defaults::STEPS_FROM_PILLARS).then_some(default);
+    // What the energy itself lacks is told by `energy`.
+    let Field::Given(energy) = field else {
+        return by_default;
+    };
+    let Ok(RawEnergy::Normal(raw)) = &energy.value else {
+        return None;
+    };
+    match reader.given(&raw.steps) {
+        None => by_default,
+        Some((RawSteps::Never, _)) => None,
+        Some((RawSteps::Allowed(raw), _)) => Some(step_options(reader, raw, default)),
+    }
+}
+
+fn step_options(reader: &mut Reader, raw: &RawStepOptions, default: StepOptions) -> StepOptions {
+    let mut length = |field: &Field<f64>, name: &str, least: f64| {
+        reader.length_from(field, name, least).map(|(v, _)| v)
+    };
+    let limits = StepLimits {
+        least_mm: length(&raw.least, "least", 0.01).unwrap_or(default.limits.least_mm),
+        highest_mm: length(&raw.highest, "highest", 0.0),
+        tolerance_mm: length(&raw.tolerance, "tolerance", 0.01),
+    };
+    let narrowest_mm = length(&raw.narrowest, "narrowest", 0.0).unwrap_or(default.narrowest_mm);
+    if let Some((h, (_, span))) = limits.highest_mm.zip(reader.given(&raw.highest)) {
+        if h < 2.0 * limits.least_mm {
+            reader.error(&span, format!("`highest` is {h} mm, but the least step is {} mm: no step could be printed between them", limits.least_mm));
+        }
+    }
+    let price = reader.number(&raw.price, "price");
+    if let Some((value, span)) = price.as_ref().filter(|(v, _)| !(0.01..=1e6).contains(v)) {
+        reader.error(
+            span,
+            format!("`price` is {value}; it may be 0.01 (many steps) to 1000000 (hardly any)"),
+        );
+    }
+    let most = reader.count(&raw.most, "most", 0..=1_000_000);
+    let prefer = match reader.given(&raw.prefer) {
+        Some((RawPrefer::Tolerance, _)) => Prefer::Tolerance,
+        Some((RawPrefer::Camouflage, _)) => Prefer::Camouflage,
+        None => default.prefer,
+    };
+    StepOptions {
+        limits,
+        most: most.map(|(v, _)| v),
+        price: price.map_or(default.price, |(v, _)| v),
+        narrowest_mm,
+        prefer,
     }
 }
 

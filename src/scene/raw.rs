@@ -88,7 +88,10 @@ raw! {
         width: f64, depth: f64, thickness: f64, margin: f64, centre: [f64; 2],
     }
     struct RawDepth, "a depth layer `(front: 5, back: 2)`" { from: RawDatum, front: f64, back: f64, core: f64, }
-    struct RawNormal, "`Normal(weight: Area)`" { weight: RawWeight, ordering: bool, }
+    struct RawNormal, "`Normal(steps: Never)`" { steps: RawSteps, weight: RawWeight, ordering: bool, reweight: u32, }
+    struct RawStepOptions, "`Allowed(highest: 3)`" {
+        least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
+    }
     struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" { hidden_weight: f64, ordering: bool, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
@@ -149,6 +152,18 @@ pub enum RawEnergy {
     Curvature(RawCurvature),
 }
 
+#[derive(Debug, Deserialize)]
+pub enum RawSteps {
+    Never,
+    Allowed(RawStepOptions),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawPrefer {
+    Tolerance,
+    Camouflage,
+}
+
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum RawWeight {
     Area,
@@ -170,6 +185,8 @@ wanted! {
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";
     RawDatum => "Axis or Surface";
     RawEnergy => "`Normal(...)` or `Curvature(...)`";
+    RawSteps => "`Never` or `Allowed(...)`";
+    RawPrefer => "Tolerance or Camouflage";
     RawWeight => "Area or SolidAngle";
 }
 

@@ -177,8 +177,9 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
     let mut models = models(reader, &raw.models, &whole);
     let drafts = drafts(reader, &raw.views, &whole, models.as_deref());
     let supports = supports::supports(reader, raw, &whole);
-    let energy = options::energy(reader, &raw.energy);
     let printer = options::printer(reader, &raw.printer);
+    let energy = options::energy(reader, &raw.energy);
+    let steps = options::steps(reader, &raw.energy, supports.pillars.len(), &printer);
     let output = options::output(reader, &raw.output);
     let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
     checks::all(
@@ -201,6 +202,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
         views,
         supports: supports.solids(),
         energy,
+        steps,
         printer,
         output,
     })

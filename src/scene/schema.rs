@@ -211,11 +211,22 @@ fn place_sections() -> Vec<Section> {
 
 #[rustfmt::skip] // a table
 fn other_sections() -> Vec<Section> {
-    let (printer, output) = (defaults::PRINTER, defaults::OUTPUT);
+    let (printer, output, steps) = (defaults::PRINTER, defaults::OUTPUT, defaults::STEPS);
     vec![
         section("Normal(...)", "Keeps the normals the eye sees.", vec![
+            field("steps", "Never | Allowed(...)", "Allowed() with two pillars or more", "whether the surface may be torn along the eye's rays, where it does not see it"),
             field("weight", "Area | SolidAngle", weight(), "how much a face counts: its area, or what the eye sees of it"),
             field("ordering", "true | false", defaults::NORMAL.ordering, "what lies in front stays in front"),
+            field("reweight", "count", defaults::NORMAL.reweight, "without steps: rounds that gather the error in few faces, 0 to 20"),
+        ]),
+        section("Allowed(...)", "Steps: the surface may fall into pieces at different depths. In the report: `steps`.", vec![
+            field("least", "length", format!("{} mm", steps.limits.least_mm), "lowest step; where pieces are nearer they stay joined"),
+            field("highest", "length", "no limit", "highest step"),
+            field("tolerance", "length", "no limit", "how far the eye may move sideways before a step opens by two arc-minutes"),
+            field("most", "count", "no limit", "largest number of step lines of a view"),
+            field("price", "number", steps.price, "of a millimetre of line, in square millimetres tilted by one degree: more gives fewer steps"),
+            field("narrowest", "length", "the printer's nozzle", "narrower strips between steps are given to a neighbour"),
+            field("prefer", "Tolerance | Camouflage", "Tolerance", "where pieces are free: small steps, or large ones that confuse from elsewhere"),
         ]),
         section("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
@@ -299,6 +310,7 @@ mod tests {
             ("Disc(...)", fields_of::<raw::RawDisc>()),
             ("Rectangle(...) as base", fields_of::<raw::RawSlab>()),
             ("Normal(...)", fields_of::<raw::RawNormal>()),
+            ("Allowed(...)", fields_of::<raw::RawStepOptions>()),
             ("Curvature(...)", fields_of::<raw::RawCurvature>()),
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),

@@ -158,6 +158,17 @@ impl Target {
         })
     }
 
+    /// The same surface as another mesh: `mesh` has a vertex at each of `vertices` of this one.
+    pub fn cut(&self, mesh: TriMesh, vertices: &[u32]) -> Self {
+        Self {
+            bvh: Bvh::new(&mesh),
+            mesh,
+            image: vertices.iter().map(|v| self.image[*v as usize]).collect(),
+            depth: vertices.iter().map(|v| self.depth[*v as usize]).collect(),
+            closed: false,
+        }
+    }
+
     pub fn image_of(&self, face: usize) -> [DVec2; 3] {
         self.mesh.faces[face].map(|v| self.image[v as usize])
     }

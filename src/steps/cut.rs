@@ -1,0 +1,238 @@
+//! Cutting the target's mesh: a vertex for every bundle of corners that stay together.
+
+use super::fusion::Field;
+use super::patches::Patches;
+use super::{Prefer, StepOptions};
+use crate::groups::Anchor;
+use crate::mesh::{DisjointSets, TriMesh};
+use crate::mimic::{Opening, Order, Step};
+use crate::viewmap::{Target, ViewMap};
+
+/// Force on a millimetre of tear towards the preferred depth, relative to the mean diagonal of the quadratic form: far above its
+/// regulariser, and too little to bend a surface by a thousandth of its layer.
+const PREFERENCE: f64 = 1e-5;
+
+/// Corners are joined below this many least steps, so that what stays apart has room to move.
+const CLOSED: f64 = 1.5;
+
+/// The target cut along outlines and tear lines, with the view map that refers to it.
+pub struct Cut {
+    pub target: Target,
+    pub map: ViewMap,
+    /// Vertices of the cut mesh at every patch's corners.
+    pub corners: Vec<[u32; 3]>,
+    /// The depth order of sheets that meet along contours, at every corner there.
+    pub orders: Vec<Order>,
+    /// Log relief depth over the model's of every vertex.
+    start: Vec<f64>,
+    steps: Vec<Step>,
+}
+
+/// A corner of a patch.
+type Corner = (u32, u8);
+
+/// Cuts where the field's corners stand at least `least_mm` apart; corners nearer than that share a vertex.
+pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, least_mm: f64) -> Cut {
+    let pairs = corner_pairs(target, patches);
+    let vertex = |c: Corner| vertex(target, patches, c) as usize;
+    let mut bundles = Bundles::new(field);
+    bundles.join(&pairs, |c| CLOSED * least_mm / target.depth[vertex(c)]);
+    let (corners, start) = bundles.numbered();
+    let mut vertices = vec![0; start.len()];
+    for (p, c) in corners.iter().enumerate() {
+        (0..3).for_each(|k| vertices[c[k] as usize] = vertex((p as u32, k as u8)) as u32);
+    }
+    let at = |(p, k): Corner| corners[p as usize][k as usize];
+    let step = |(a, b): &(Corner, Corner)| {
+        let (v, w) = (at(*a), at(*b));
+        let (near, far) = if start[v as usize] < start[w as usize] {
+            (v, w)
+        } else {
+            (w, v)
+        };
+        let front = |(p, k): Corner| patches.patches[p as usize].room[k as usize].0.exp();
+        let highest = |c: &Corner| patches.patches[c.0 as usize].highest;
+        Step {
+            near,
+            far,
+            // At the layer's front a step must be largest in log depth.
+            least: (least_mm / target.depth[vertex(*a)] / front(*a)).ln_1p(),
+            most: highest(a).min(highest(b)),
+        }
+    };
+    let mut steps: Vec<Step> = pairs
+        .iter()
+        .filter(|(a, b)| at(*a) != at(*b))
+        .map(step)
+        .collect();
+    steps.sort_by(|s, t| {
+        let key = |s: &Step| (s.near, s.far);
+        key(s).cmp(&key(t)).then(s.most.total_cmp(&t.most))
+    });
+    steps.dedup_by_key(|s| (s.near, s.far));
+    let mesh = TriMesh {
+        vertices: vertices
+            .iter()
+            .map(|v| target.mesh.vertices[*v as usize])
+            .collect(),
+        faces: corners.clone(),
+    };
+    let mut map = map.clone();
+    for (cell, patch) in map.cells.iter_mut().zip(&patches.of_cell) {
+        cell.face = *patch;
+    }
+    Cut {
+        target: target.cut(mesh, &vertices),
+        map,
+        orders: orders(patches, &corners),
+        corners,
+        start,
+        steps,
+    }
+}
+
+impl Cut {
+    /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
+    pub fn opening(&self, patches: &Patches, options: &StepOptions) -> Opening {
+        let sign = match options.prefer {
+            Prefer::Tolerance => PREFERENCE,
+            Prefer::Camouflage => -PREFERENCE,
+        };
+        let mut push = vec![0.0; self.start.len()];
+        let mut pull = |patch: u32, weights: &[f64; 3], force: f64| {
+            for (v, w) in self.corners[patch as usize].iter().zip(weights) {
+                push[*v as usize] += force * w;
+            }
+        };
+        for seam in &patches.seams {
+            for [a, b] in seam.ends {
+                let [i, j] = seam.patches;
+                let y = |p: u32, w: [f64; 3]| {
+                    let c = self.corners[p as usize];
+                    (0..3).map(|k| w[k] * self.start[c[k] as usize]).sum::<f64>()
+                };
+                let first_is_near = y(i, a) < y(j, b);
+                let force = sign * seam.length_mm / 2.0 * if first_is_near { 1.0 } else { -1.0 };
+                pull(i, &a, force);
+                pull(j, &b, -force);
+            }
+        }
+        for rim in &patches.rims {
+            pull(rim.patch, &[1.0 / 3.0; 3], sign * rim.length_mm * if rim.near { 1.0 } else { -1.0 });
+        }
+        Opening {
+            start: self.start.clone(),
+            push,
+            steps: self.steps.clone(),
+        }
+    }
+}
+
+fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> u32 {
+    target.mesh.faces[patches.patches[p as usize].face as usize][k as usize]
+}
+
+/// Corners with the mean depth of each bundle.
+struct Bundles {
+    sets: DisjointSets,
+    /// Sum and count at every root.
+    sums: Vec<(f64, f64)>,
+}
+
+impl Bundles {
+    fn new(field: &Field) -> Self {
+        Self {
+            sets: DisjointSets::new(3 * field.len()),
+            sums: field.iter().flatten().map(|y| (*y, 1.0)).collect(),
+        }
+    }
+
+    fn mean(&mut self, corner: u32) -> f64 {
+        let (sum, count) = self.sums[self.sets.root(corner) as usize];
+        sum / count
+    }
+
+    /// Joins pairs nearer than `least`, until none is: joining moves means, so that others may come near.
+    fn join(&mut self, pairs: &[(Corner, Corner)], least: impl Fn(Corner) -> f64) {
+        let index = |(p, k): Corner| 3 * p + u32::from(k);
+        loop {
+            let mut joined = false;
+            for (a, b) in pairs {
+                let (i, j) = (self.sets.root(index(*a)), self.sets.root(index(*b)));
+                // Depths in the relief: the nearer corner decides.
+                let (x, y) = (self.mean(i), self.mean(j));
+                if i != j && (x.max(y).exp() - x.min(y).exp()) < least(*a) {
+                    let (s, t) = (self.sums[i as usize], self.sums[j as usize]);
+                    self.sets.join(i, j);
+                    self.sums[self.sets.root(i) as usize] = (s.0 + t.0, s.1 + t.1);
+                    joined = true;
+                }
+            }
+            if !joined {
+                return;
+            }
+        }
+    }
+
+    /// The bundle of every patch's corners, and the bundles' means.
+    fn numbered(mut self) -> (Vec<[u32; 3]>, Vec<f64>) {
+        let (count, number) = self.sets.numbers();
+        let mut means = vec![0.0; count];
+        for (corner, n) in number.iter().enumerate() {
+            means[*n as usize] = self.mean(corner as u32);
+        }
+        (number.chunks(3).map(|c| [c[0], c[1], c[2]]).collect(), means)
+    }
+}
+
+/// Corners of two patches at the same vertex, for all patches that meet along a seam.
+fn corner_pairs(target: &Target, patches: &Patches) -> Vec<(Corner, Corner)> {
+    let mut pairs = Vec::new();
+    for seam in &patches.seams {
+        let [a, b] = seam.patches;
+        if patches.patches[a as usize].group != patches.patches[b as usize].group {
+            continue;
+        }
+        let corners = |p: u32| (0..3u8).map(move |k| (p, k));
+        for c in corners(a) {
+            let same = |d: &Corner| vertex(target, patches, c) == vertex(target, patches, *d);
+            pairs.extend(corners(b).find(same).map(|d| (c, d)));
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Exact for the relief: `1/lambda` is affine along a side on both sheets, so that its ends decide.
+fn orders(patches: &Patches, corners: &[[u32; 3]]) -> Vec<Order> {
+    let mut orders = Vec::new();
+    for seam in &patches.seams {
+        for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
+            let end = |k: usize| {
+                let patch = seam.patches[k] as usize;
+                let anchor = Anchor {
+                    vertices: corners[patch],
+                    weights: weights[k],
+                };
+                (anchor, patches.patches[patch].group)
+            };
+            let (first, second) = (end(0), end(1));
+            let (front, back) = if gap > 0.0 {
+                (first, second)
+            } else {
+                (second, first)
+            };
+            if gap != 0.0 {
+                orders.push(Order {
+                    front: front.0,
+                    front_group: front.1,
+                    back: back.0,
+                    back_group: back.1,
+                    ratio: (-gap.abs()).exp(),
+                });
+            }
+        }
+    }
+    orders
+}

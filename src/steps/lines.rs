@@ -1,0 +1,151 @@
+//! The tear lines of a finished surface, for pictures and figures.
+
+use super::UNSEEN_RAD;
+use super::fusion::Field;
+use super::patches::{Patches, Seam};
+use crate::groups::{Anchor, anchor};
+use crate::mesh::DisjointSets;
+use crate::mimic::Depths;
+use crate::viewmap::{Target, ViewMap};
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+/// Lower steps are rounding: a micrometre.
+const STEP_MM: f64 = 1e-3;
+
+/// A piece of a tear line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLine {
+    /// Its ends in the image, as directions from the eye.
+    pub ends: [DVec3; 2],
+    /// How far apart the two sides lie along the rays of both ends, millimetres.
+    pub height_mm: [f64; 2],
+    /// Difference of the two sides' inverse distances from the eye at both ends, 1/mm: the angle it opens by for each
+    /// millimetre the eye moves sideways.
+    pub parallax: [f64; 2],
+    /// Length at the model's mean depth, millimetres.
+    pub length_mm: f64,
+}
+
+/// The tears of a view in figures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct StepSummary {
+    /// Lines along which two pieces meet in a step.
+    pub lines: usize,
+    /// Pieces of surface that hang together, contours of the model and outlines of pillars dividing them too.
+    pub pieces: usize,
+    /// Length of all tear lines at the model's mean depth.
+    pub length_mm: f64,
+    /// Smallest step that is not zero at a vertex of the cut, mean over the length, and largest.
+    pub lowest_mm: f64,
+    pub mean_mm: f64,
+    pub highest_mm: f64,
+    /// How far the eye may move sideways before the largest step opens by two arc-minutes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance_mm: Option<f64>,
+    /// Seen area of strips too narrow to print that were given to a neighbour.
+    pub absorbed_mm2: f64,
+}
+
+/// The number of tear lines: pairs of pieces that meet in a step.
+pub fn count(patches: &Patches, field: &Field) -> usize {
+    let value = |s: &Seam, k: usize, side: usize| {
+        let (w, y) = (&s.ends[k][side], &field[s.patches[side] as usize]);
+        (0..3).map(|i| w[i] * y[i]).sum::<f64>()
+    };
+    let step = |s: &Seam, k: usize| (value(s, k, 0) - value(s, k, 1)).abs() * patches.depth;
+    meetings(patches, |n| (0..2).any(|k| step(&patches.seams[n], k) > STEP_MM)).0
+}
+
+/// Pairs of pieces that meet in a tear, and pieces. Index of `torn`: seam.
+fn meetings(patches: &Patches, torn: impl Fn(usize) -> bool) -> (usize, usize) {
+    let mut sets = DisjointSets::new(patches.patches.len());
+    let (open, closed): (Vec<usize>, Vec<usize>) =
+        tears(patches).map(|t| t.0).partition(|n| torn(*n));
+    for n in closed {
+        let [a, b] = patches.seams[n].patches;
+        sets.join(a, b);
+    }
+    let mut pairs: Vec<[u32; 2]> = open
+        .iter()
+        .map(|n| patches.seams[*n].patches.map(|p| sets.root(p)))
+        .filter(|[a, b]| a != b)
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    (pairs.len(), sets.numbers().0)
+}
+
+/// Seams that are no contours of the model, with their indices.
+fn tears(patches: &Patches) -> impl Iterator<Item = (usize, &Seam)> {
+    let seams = patches.seams.iter().enumerate();
+    seams.filter(|(_, s)| s.gaps == [0.0; 2])
+}
+
+/// All tear lines of the solved surface, and their figures.
+pub fn lines(
+    map: &ViewMap,
+    target: &Target,
+    patches: &Patches,
+    corners: &[[u32; 3]],
+    depths: &Depths,
+    absorbed_mm2: f64,
+) -> (Vec<StepLine>, StepSummary) {
+    let distance = |p: u32, q: DVec2| {
+        let patch = &patches.patches[p as usize];
+        let (Anchor { weights, .. }, z) = anchor(target, patch.face as usize, q);
+        let vertices = corners[p as usize];
+        let s = Anchor { vertices, weights }.relative_depth(&depths.s);
+        z * s / depths.mu[patch.group as usize] * map.plane.direction(q).length()
+    };
+    let mut lines = Vec::new();
+    let mut torn = vec![false; patches.seams.len()];
+    for (n, s) in tears(patches) {
+        let sides = s.line.map(|q| s.patches.map(|p| distance(p, q)));
+        let line = StepLine {
+            ends: s.line.map(|q| map.plane.direction(q)),
+            height_mm: sides.map(|[a, b]| (a - b).abs()),
+            parallax: sides.map(|[a, b]| (1.0 / a - 1.0 / b).abs()),
+            length_mm: s.length_mm,
+        };
+        if line.height_mm.iter().any(|h| *h > STEP_MM) {
+            torn[n] = true;
+            lines.push(line);
+        }
+    }
+    let (count, pieces) = meetings(patches, |n| torn[n]);
+    let summary = StepSummary {
+        lines: count,
+        pieces,
+        absorbed_mm2,
+        ..measured(&lines)
+    };
+    (lines, summary)
+}
+
+fn measured(lines: &[StepLine]) -> StepSummary {
+    let heights = || {
+        let all = lines.iter().flat_map(|l| l.height_mm);
+        all.filter(|h| *h > STEP_MM)
+    };
+    let length_mm: f64 = lines.iter().map(|l| l.length_mm).sum();
+    let weighted = lines
+        .iter()
+        .map(|l| l.length_mm * (l.height_mm[0] + l.height_mm[1]) / 2.0);
+    let weighted: f64 = weighted.sum();
+    let highest_mm = heights().fold(0.0, f64::max);
+    let parallax = lines.iter().flat_map(|l| l.parallax).fold(0.0, f64::max);
+    StepSummary {
+        length_mm,
+        lowest_mm: heights().fold(highest_mm, f64::min),
+        mean_mm: if length_mm > 0.0 {
+            weighted / length_mm
+        } else {
+            0.0
+        },
+        highest_mm,
+        tolerance_mm: (parallax > 0.0).then(|| UNSEEN_RAD / parallax),
+        ..StepSummary::default()
+    }
+}

@@ -1,0 +1,308 @@
+//! The pieces a surface may fall into: patches (parts of faces seen on one group) and the seams between them.
+
+use super::{StepLimits, UNSEEN_RAD};
+use crate::geom::ImagePlane;
+use crate::groups::{Anchor, Groups, anchor, layer_at};
+use crate::laplacian::FaceGeometry;
+use crate::viewmap::{SupportField, Target, ViewMap};
+use glam::DVec2;
+use std::ops::Range;
+
+/// Sheets whose depths in the model differ by less than this along a side hang together there, millimetres: well above what
+/// merging thin cells moves, well below any step worth printing.
+const TOGETHER_MM: f64 = 0.02;
+
+/// The part of a face that is seen on one group.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    pub face: u32,
+    pub group: u32,
+    pub support: u32,
+    /// Its solid angle times the square of the model's mean depth.
+    pub seen_mm2: f64,
+    /// `sum over k of tilt_k (y_(k+1) - y_(k+2))^2` is what the patch costs: its seen area times `tan^2 theta`, square millimetres.
+    pub tilt: [f64; 3],
+    /// Log relief depths over the model's that the layer allows at each corner's own ray.
+    pub room: [(f64, f64); 3],
+    /// Log relief depths that are allowed for the whole patch if it is the same everywhere; empty where the patch is too steep.
+    pub even: (f64, f64),
+    pub points: Vec<PatchPoint>,
+    /// Largest step allowed at its sides, log depth.
+    pub highest: f64,
+}
+
+/// A bounded point of a patch: `lower <= sum of weight * y <= upper` (linearised in log depth).
+#[derive(Clone, Copy, Debug)]
+pub struct PatchPoint {
+    pub weights: [f64; 3],
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// A line along which two patches meet in the image.
+#[derive(Clone, Debug)]
+pub struct Seam {
+    pub patches: [u32; 2],
+    /// Weights of both patches' corners at both ends.
+    pub ends: [[[f64; 3]; 2]; 2],
+    /// At both ends: 0 where the patches hang together; else the log of the second's depth in the model over the first's.
+    pub gaps: [f64; 2],
+    /// Length in the image at the model's mean depth, millimetres.
+    pub length_mm: f64,
+    /// Both ends in the image.
+    pub line: [DVec2; 2],
+    /// Angle between the normals, radians.
+    pub crease: f64,
+    /// Largest step allowed, log depth.
+    pub highest: f64,
+}
+
+/// A side where the relief ends at another support's.
+#[derive(Clone, Copy, Debug)]
+pub struct Rim {
+    pub patch: u32,
+    /// Whether its own support is the nearer one.
+    pub near: bool,
+    pub length_mm: f64,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Patches {
+    pub patches: Vec<Patch>,
+    /// Patch of every cell of the map.
+    pub of_cell: Vec<Option<u32>>,
+    /// Rising by patches.
+    pub seams: Vec<Seam>,
+    pub rims: Vec<Rim>,
+    /// Median width of the layers in log depth.
+    pub width: f64,
+    /// Mean depth of the seen model, millimetres.
+    pub depth: f64,
+}
+
+impl Patches {
+    pub fn new(
+        limits: &StepLimits,
+        target: &Target,
+        map: &ViewMap,
+        field: &SupportField,
+        groups: &Groups,
+    ) -> Self {
+        let (keys, of_cell) = numbered(map, groups);
+        let depth = mean_depth(target, map);
+        let geometry = FaceGeometry::new(&target.mesh);
+        let mut patches: Vec<Patch> = keys
+            .iter()
+            .map(|(_, group, face)| patch(target, map, field, groups, *group, *face))
+            .collect();
+        for (c, patch) in of_cell.iter().enumerate() {
+            let Some(i) = patch else { continue };
+            add_cell(&mut patches[*i as usize], target, map, field, groups, c);
+        }
+        for p in &mut patches {
+            p.highest = highest(limits, target, p);
+            p.seen_mm2 *= depth * depth;
+            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, p.seen_mm2);
+        }
+        let mut widths: Vec<f64> = patches
+            .iter()
+            .flat_map(|p| p.points.iter().map(|b| b.upper - b.lower))
+            .collect();
+        widths.sort_by(f64::total_cmp);
+        let (seams, rims) = seams(target, map, &patches, &of_cell, depth);
+        Self {
+            seams,
+            rims,
+            width: widths.get(widths.len() / 2).copied().unwrap_or(1.0),
+            patches,
+            of_cell,
+            depth,
+        }
+    }
+
+    /// Patches of every support, which stand together, with its cells.
+    pub fn by_support(&self) -> Vec<(Range<usize>, Vec<u32>)> {
+        let mut ranges: Vec<(Range<usize>, Vec<u32>)> = Vec::new();
+        let mut of_patch = Vec::with_capacity(self.patches.len());
+        for (i, p) in self.patches.iter().enumerate() {
+            if i == 0 || self.patches[i - 1].support != p.support {
+                ranges.push((i..i, Vec::new()));
+            }
+            let last = ranges.len() - 1;
+            ranges[last].0.end = i + 1;
+            of_patch.push(last);
+        }
+        for (c, patch) in self.of_cell.iter().enumerate() {
+            if let Some(p) = patch {
+                ranges[of_patch[*p as usize]].1.push(c as u32);
+            }
+        }
+        ranges
+    }
+}
+
+/// Patches as `(support, group, face)`, rising, and the patch of every cell.
+fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<(u32, u32, u32)>, Vec<Option<u32>>) {
+    let key = |c: usize| {
+        let group = groups.of_cell[c]?;
+        Some((groups.groups[group as usize].support, group, map.cells[c].face?))
+    };
+    let mut keys: Vec<(u32, u32, u32)> = (0..map.cells.len()).filter_map(key).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let find = |c| Some(keys.binary_search(&key(c)?).ok()? as u32);
+    let of_cell = (0..map.cells.len()).map(find).collect();
+    (keys, of_cell)
+}
+
+fn mean_depth(target: &Target, map: &ViewMap) -> f64 {
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for (c, cell) in map.cells.iter().enumerate() {
+        let Some(face) = cell.face else { continue };
+        let sr = map.solid_angle(c);
+        let z = target.mesh.faces[face as usize].map(|v| target.depth[v as usize]);
+        sum += sr * z.iter().sum::<f64>() / 3.0;
+        weight += sr;
+    }
+    sum / weight
+}
+
+fn patch(
+    target: &Target,
+    map: &ViewMap,
+    field: &SupportField,
+    groups: &Groups,
+    group: u32,
+    face: u32,
+) -> Patch {
+    let support = groups.groups[group as usize].support;
+    let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
+    let room = target.mesh.faces[face as usize].map(|v| {
+        let (near, far) = layer_at(map, field, &slab, support, target.image[v as usize]);
+        let z = target.depth[v as usize];
+        ((near / z).ln(), (far / z).ln())
+    });
+    Patch {
+        face,
+        group,
+        support,
+        seen_mm2: 0.0,
+        tilt: [0.0; 3],
+        room,
+        even: (f64::NEG_INFINITY, f64::INFINITY),
+        points: Vec::new(),
+        highest: f64::INFINITY,
+    }
+}
+
+/// The largest step that keeps all limits wherever in the layer it lies. A step between depths `Z` and `Z e^d` is `Z (e^d - 1)`
+/// high, and opens by `e (1 - e^-d) / Z` for an eye that moves sideways by `e` (design: `e |1/Z1 - 1/Z2|`).
+fn highest(limits: &StepLimits, target: &Target, p: &Patch) -> f64 {
+    let depth = target.mesh.faces[p.face as usize].map(|v| target.depth[v as usize]);
+    let at = |k: usize, y: f64| depth[k] * y.exp();
+    let nearest = (0..3).map(|k| at(k, p.room[k].0)).fold(f64::INFINITY, f64::min);
+    let farthest = (0..3).map(|k| at(k, p.room[k].1)).fold(0.0, f64::max);
+    let by_height = limits.highest_mm.map_or(f64::INFINITY, |h| (h / farthest).ln_1p());
+    let by_tolerance = limits.tolerance_mm.map_or(f64::INFINITY, |e| {
+        let opening = UNSEEN_RAD * nearest / e;
+        if opening < 1.0 { -(-opening).ln_1p() } else { f64::INFINITY }
+    });
+    by_height.min(by_tolerance)
+}
+
+/// Adds a cell's solid angle (to `seen_mm2`, scaled when all are known) and the bounds at its corners.
+fn add_cell(
+    patch: &mut Patch,
+    target: &Target,
+    map: &ViewMap,
+    field: &SupportField,
+    groups: &Groups,
+    c: usize,
+) {
+    let support = groups.groups[patch.group as usize].support;
+    let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
+    patch.seen_mm2 += map.solid_angle(c);
+    for q in map.triangle(c) {
+        let (anchor, z) = anchor(target, patch.face as usize, q);
+        let (near, far) = layer_at(map, field, &slab, support, q);
+        let (lower, upper) = ((near / z).ln(), (far / z).ln());
+        patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
+        patch.points.push(PatchPoint {
+            weights: anchor.weights,
+            lower,
+            upper,
+        });
+    }
+}
+
+/// What a patch of `seen` square millimetres costs for differences between its corners (see `mimic::normal`).
+fn tilt(
+    target: &Target,
+    plane: &ImagePlane,
+    geometry: &FaceGeometry,
+    face: usize,
+    seen: f64,
+) -> [f64; 3] {
+    let h = target.mesh.normal(face).dot(target.mesh.corners(face)[0] - plane.eye);
+    geometry.cotangents[face].map(|cot| seen * h * h * cot / (2.0 * geometry.areas[face]))
+}
+
+/// All seams, rising by patches (one for every side of cells between two patches of one support), and all rims.
+fn seams(
+    target: &Target,
+    map: &ViewMap,
+    patches: &[Patch],
+    of_cell: &[Option<u32>],
+    depth: f64,
+) -> (Vec<Seam>, Vec<Rim>) {
+    let (mut seams, mut rims) = (Vec::new(), Vec::new());
+    for c in 0..map.cells.len() {
+        for k in 0..3 {
+            let Some(n) = map.neighbours[c][k].filter(|n| *n as usize > c) else {
+                continue;
+            };
+            let (Some(i), Some(j)) = (of_cell[c], of_cell[n as usize]) else {
+                continue;
+            };
+            let corners = map.triangle(c);
+            let line = [corners[k], corners[(k + 1) % 3]];
+            if patches[i as usize].support != patches[j as usize].support {
+                let i_is_near = map.cells[c].support_depth < map.cells[n as usize].support_depth;
+                let length_mm = line[0].distance(line[1]) * depth;
+                rims.extend([(i, i_is_near), (j, !i_is_near)].map(|(patch, near)| Rim {
+                    patch,
+                    near,
+                    length_mm,
+                }));
+            } else if i != j {
+                let pair = [i.min(j), i.max(j)];
+                seams.push(seam(target, patches, pair, line, depth));
+            }
+        }
+    }
+    seams.sort_by_key(|s| s.patches);
+    (seams, rims)
+}
+
+fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], depth: f64) -> Seam {
+    let faces = pair.map(|p| patches[p as usize].face as usize);
+    let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
+    let gap = |[a, b]: [(Anchor, f64); 2]| {
+        if (a.1 - b.1).abs() > TOGETHER_MM {
+            (b.1 / a.1).ln()
+        } else {
+            0.0
+        }
+    };
+    let [a, b] = faces.map(|f| target.mesh.normal(f));
+    Seam {
+        patches: pair,
+        ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),
+        gaps: at.map(gap),
+        length_mm: line[0].distance(line[1]) * depth,
+        line,
+        crease: a.cross(b).length().atan2(a.dot(b)),
+        highest: pair.map(|p| patches[p as usize].highest).into_iter().fold(f64::INFINITY, f64::min),
+    }
+}

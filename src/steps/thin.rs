@@ -1,0 +1,168 @@
+//! Pieces too thin to print: found on a raster of the image, given to a neighbour.
+//!
+//! A strip between two tears that is narrower than the printer's line would be a fin where it stands out and a slit where it
+//! lies deep. It joins the neighbour that costs least, drawn in to the layer: its normals turn, the strip is gone.
+
+use super::fusion::{Field, Functional};
+use super::patches::Patches;
+use crate::groups::anchor;
+use crate::viewmap::{Target, ViewMap};
+use glam::{DVec2, IVec2};
+
+/// Pixels across the narrowest printable strip. With 4 strips a quarter too narrow pass, beyond 8 only time is lost.
+const PIXELS: f64 = 6.0;
+/// Rasters larger than this are made coarser: 16 million pixels.
+const MOST_PIXELS: f64 = 16e6;
+/// Sheets nearer than this in the model meet in a tear, not in a contour of the model, millimetres.
+const TEAR_MM: f64 = 0.2;
+/// Merging strips may leave others behind; a third round rarely finds any.
+const ROUNDS: usize = 3;
+
+/// Gives every strip narrower than `narrowest_mm` to a neighbour; the seen area given away, square millimetres.
+pub fn absorb_thin(
+    target: &Target,
+    map: &ViewMap,
+    functional: &Functional,
+    cells: &[u32],
+    field: &mut Field,
+    narrowest_mm: f64,
+) -> f64 {
+    let patches = functional.patches();
+    if narrowest_mm <= 0.0 || cells.is_empty() {
+        return 0.0;
+    }
+    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.depth);
+    let mut absorbed = vec![false; field.len()];
+    for _ in 0..ROUNDS {
+        let pieces = functional.pieces(field);
+        let thin = raster.thin(target, functional, &pieces);
+        let mut changed = false;
+        for region in functional.regions(&pieces, &thin) {
+            if functional.join_cheapest(field, &region, &thin) {
+                region.iter().for_each(|i| absorbed[*i as usize] = true);
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    let first = functional.range().start;
+    let area = |i: usize| patches.patches[first + i].seen_mm2;
+    (0..absorbed.len())
+        .filter(|i| absorbed[*i])
+        .map(area)
+        .sum()
+}
+
+/// The patch at every pixel of one support's part of the image.
+struct Raster {
+    corner: DVec2,
+    pixel: f64,
+    size: IVec2,
+    /// Patch or `u32::MAX`, row by row.
+    patch: Vec<u32>,
+}
+
+impl Raster {
+    /// `narrowest` in the image.
+    fn new(map: &ViewMap, patches: &Patches, cells: &[u32], narrowest: f64) -> Self {
+        let points = || cells.iter().flat_map(|c| map.triangle(*c as usize));
+        let lo = points().fold(DVec2::INFINITY, DVec2::min);
+        let hi = points().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let extent = hi - lo;
+        let pixel = (narrowest / PIXELS).max((extent.x * extent.y / MOST_PIXELS).sqrt());
+        let size = (extent / pixel).ceil().as_ivec2() + 1;
+        let mut raster = Self {
+            corner: lo,
+            pixel,
+            size,
+            patch: vec![u32::MAX; (size.x * size.y) as usize],
+        };
+        for c in cells {
+            if let Some(p) = patches.of_cell[*c as usize] {
+                raster.fill(map.triangle(*c as usize), p);
+            }
+        }
+        raster
+    }
+
+    fn centre(&self, at: IVec2) -> DVec2 {
+        self.corner + (at.as_dvec2() + 0.5) * self.pixel
+    }
+
+    /// Labels the pixels whose centres lie in a triangle.
+    fn fill(&mut self, triangle: [DVec2; 3], patch: u32) {
+        let local = triangle.map(|q| (q - self.corner) / self.pixel - 0.5);
+        let lo = local[0].min(local[1]).min(local[2]).ceil().as_ivec2().max(IVec2::ZERO);
+        let hi = local[0].max(local[1]).max(local[2]).floor().as_ivec2().min(self.size - 1);
+        let inside = |p: DVec2| {
+            (0..3).all(|k| (local[(k + 1) % 3] - local[k]).perp_dot(p - local[k]) >= 0.0)
+        };
+        for y in lo.y..=hi.y {
+            for x in lo.x..=hi.x {
+                if inside(DVec2::new(f64::from(x), f64::from(y))) {
+                    self.patch[(y * self.size.x + x) as usize] = patch;
+                }
+            }
+        }
+    }
+
+    fn at(&self, p: IVec2) -> Option<u32> {
+        let inside = p.cmpge(IVec2::ZERO).all() && p.cmplt(self.size).all();
+        let patch = inside.then(|| self.patch[(p.y * self.size.x + p.x) as usize])?;
+        (patch != u32::MAX).then_some(patch)
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = (IVec2, u32)> {
+        let width = self.size.x;
+        let pixel = move |(k, p): (usize, &u32)| (IVec2::new(k as i32 % width, k as i32 / width), *p);
+        self.patch.iter().enumerate().map(pixel).filter(|p| p.1 != u32::MAX)
+    }
+
+    /// Whether at least half of a patch's pixels lie where no disc of the narrowest width fits between tears; index: patch
+    /// of the support.
+    fn thin(&self, target: &Target, functional: &Functional, pieces: &[u32]) -> Vec<bool> {
+        let first = functional.range().start as u32;
+        let piece = |p: u32| pieces[(p - first) as usize];
+        let depth = |patch: u32, at: IVec2| {
+            let face = functional.patches().patches[patch as usize].face;
+            anchor(target, face as usize, self.centre(at)).1
+        };
+        let torn = |at: IVec2, p: u32, by: IVec2| {
+            self.at(at + by).is_some_and(|q| {
+                piece(q) != piece(p) && (depth(q, at) - depth(p, at)).abs() < TEAR_MM
+            })
+        };
+        let around = [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y];
+        let index = |p: IVec2| (p.y * self.size.x + p.x) as usize;
+        let mut edge = vec![false; self.patch.len()];
+        for (at, p) in self.pixels() {
+            edge[index(at)] = around.iter().any(|by| torn(at, p, *by));
+        }
+        // A disc's centre lies a radius from every torn edge of its own piece, half a pixel beyond the edge pixels.
+        let radius = PIXELS / 2.0;
+        let reach = radius.ceil() as i32;
+        let disc = || (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |x| IVec2::new(x, y)));
+        let within = |by: &IVec2, r: f64| f64::from(by.length_squared()) <= r * r;
+        let near: Vec<IVec2> = disc().filter(|by| within(by, radius - 1.0)).collect();
+        let wide: Vec<IVec2> = disc().filter(|by| within(by, radius)).collect();
+        let same = |at: IVec2, p: u32| self.at(at).is_some_and(|q| piece(q) == piece(p));
+        let mut centre = vec![false; self.patch.len()];
+        for (at, p) in self.pixels() {
+            centre[index(at)] = !near
+                .iter()
+                .any(|by| same(at + *by, p) && edge[index(at + *by)]);
+        }
+        let mut count = vec![(0u32, 0u32); functional.range().len()];
+        for (at, p) in self.pixels() {
+            let fits = wide
+                .iter()
+                .any(|by| same(at + *by, p) && centre[index(at + *by)]);
+            let slot = &mut count[(p - first) as usize];
+            slot.0 += u32::from(!fits);
+            slot.1 += 1;
+        }
+        count.iter().map(|(thin, all)| *all > 0 && 2 * thin >= *all).collect()
+    }
+}
