@@ -12,6 +12,9 @@ use crate::viewmap::{Target, ViewMap};
 /// regulariser, and too little to bend a surface by a thousandth of its layer.
 const PREFERENCE: f64 = 1e-5;
 
+/// Weight of patches given away because they were too narrow: the rest does not bend for them, but they do not crumple.
+const ABSORBED: f64 = 1e-3;
+
 /// Corners are joined below this many least steps, so that what stays apart has room to move.
 const CLOSED: f64 = 1.5;
 
@@ -93,7 +96,8 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
 
 impl Cut {
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
-    pub fn opening(&self, patches: &Patches, options: &StepOptions) -> Opening {
+    /// Patches that are `absorbed` hardly count.
+    pub fn opening(&self, patches: &Patches, options: &StepOptions, absorbed: &[bool]) -> Opening {
         let sign = match options.prefer {
             Prefer::Tolerance => PREFERENCE,
             Prefer::Camouflage => -PREFERENCE,
@@ -109,7 +113,9 @@ impl Cut {
                 let [i, j] = seam.patches;
                 let y = |p: u32, w: [f64; 3]| {
                     let c = self.corners[p as usize];
-                    (0..3).map(|k| w[k] * self.start[c[k] as usize]).sum::<f64>()
+                    (0..3)
+                        .map(|k| w[k] * self.start[c[k] as usize])
+                        .sum::<f64>()
                 };
                 let first_is_near = y(i, a) < y(j, b);
                 let force = sign * seam.length_mm / 2.0 * if first_is_near { 1.0 } else { -1.0 };
@@ -118,12 +124,20 @@ impl Cut {
             }
         }
         for rim in &patches.rims {
-            pull(rim.patch, &[1.0 / 3.0; 3], sign * rim.length_mm * if rim.near { 1.0 } else { -1.0 });
+            pull(
+                rim.patch,
+                &[1.0 / 3.0; 3],
+                sign * rim.length_mm * if rim.near { 1.0 } else { -1.0 },
+            );
         }
         Opening {
             start: self.start.clone(),
             push,
             steps: self.steps.clone(),
+            counts: absorbed
+                .iter()
+                .map(|a| if *a { ABSORBED } else { 1.0 })
+                .collect(),
         }
     }
 }
@@ -181,7 +195,10 @@ impl Bundles {
         for (corner, n) in number.iter().enumerate() {
             means[*n as usize] = self.mean(corner as u32);
         }
-        (number.chunks(3).map(|c| [c[0], c[1], c[2]]).collect(), means)
+        (
+            number.chunks(3).map(|c| [c[0], c[1], c[2]]).collect(),
+            means,
+        )
     }
 }
 

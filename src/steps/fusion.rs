@@ -198,7 +198,11 @@ impl<'a> Functional<'a> {
                 (v - b.upper).max(b.lower - v).max(0.0)
             })
             .fold(0.0, f64::max);
-        let over = if over > SAME { over / self.patches.width } else { 0.0 };
+        let over = if over > SAME {
+            over / self.patches.width
+        } else {
+            0.0
+        };
         self.prices.tilt * tilt + OVERSTEP * p.seen_mm2 * over
     }
 
@@ -413,9 +417,7 @@ impl<'a> Functional<'a> {
                 tried_at[k] = now;
                 let changed = self.fuse(field, members, &mut variable);
                 any |= !changed.is_empty();
-                changed
-                    .iter()
-                    .for_each(|i| changed_at[*i as usize] = now);
+                changed.iter().for_each(|i| changed_at[*i as usize] = now);
             }
             if !any {
                 return sweep;

@@ -54,7 +54,10 @@ pub fn count(patches: &Patches, field: &Field) -> usize {
         (0..3).map(|i| w[i] * y[i]).sum::<f64>()
     };
     let step = |s: &Seam, k: usize| (value(s, k, 0) - value(s, k, 1)).abs() * patches.depth;
-    meetings(patches, |n| (0..2).any(|k| step(&patches.seams[n], k) > STEP_MM)).0
+    meetings(patches, |n| {
+        (0..2).any(|k| step(&patches.seams[n], k) > STEP_MM)
+    })
+    .0
 }
 
 /// Pairs of pieces that meet in a tear, and pieces. Index of `torn`: seam.

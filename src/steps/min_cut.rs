@@ -115,7 +115,14 @@ impl Flow {
                 next[a.0 as usize] - 1
             })
             .collect();
-        let mut sorted = vec![Arc { head: 0, reverse: 0, room: 0 }; arcs.len()];
+        let mut sorted = vec![
+            Arc {
+                head: 0,
+                reverse: 0,
+                room: 0
+            };
+            arcs.len()
+        ];
         for (i, (_, head, room)) in arcs.iter().enumerate() {
             sorted[place[i] as usize] = Arc {
                 head: *head,
@@ -132,7 +139,11 @@ impl Flow {
             };
             Node {
                 tree,
-                parent: if terminal == 0 { Parent::None } else { Parent::Terminal },
+                parent: if terminal == 0 {
+                    Parent::None
+                } else {
+                    Parent::Terminal
+                },
                 terminal,
                 distance: 1,
                 time: 0,
@@ -203,9 +214,18 @@ impl Flow {
     /// Lets the tree of `v` take in free neighbours until it meets the other one; gives the arc from the source's tree to the
     /// sink's.
     fn grow(&mut self, v: u32) -> Option<u32> {
-        let Node { tree, distance, time, .. } = self.nodes[v as usize];
+        let Node {
+            tree,
+            distance,
+            time,
+            ..
+        } = self.nodes[v as usize];
         for a in self.arcs_of(v) {
-            let outwards = if tree == Tree::Source { a } else { self.reverse(a) };
+            let outwards = if tree == Tree::Source {
+                a
+            } else {
+                self.reverse(a)
+            };
             if self.room(outwards) == 0 {
                 continue;
             }
@@ -258,7 +278,11 @@ impl Flow {
                     }
                     break;
                 };
-                let down = if node.tree == Tree::Source { self.reverse(a) } else { a };
+                let down = if node.tree == Tree::Source {
+                    self.reverse(a)
+                } else {
+                    a
+                };
                 self.push(down, push);
                 if self.room(down) == 0 {
                     self.orphan(v);
@@ -302,7 +326,11 @@ impl Flow {
         self.nodes[v as usize].tree = Tree::Free;
         for a in self.arcs_of(v) {
             let head = self.arcs[a as usize].head;
-            let Node { tree: other, parent, .. } = self.nodes[head as usize];
+            let Node {
+                tree: other,
+                parent,
+                ..
+            } = self.nodes[head as usize];
             if other != tree {
                 continue;
             }

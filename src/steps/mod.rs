@@ -54,7 +54,7 @@ pub use lines::{StepLine, StepSummary};
 use crate::groups::{Groups, with_bounds};
 use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
 use crate::viewmap::{SupportField, Target, ViewMap};
-use cut::{Cut, cut};
+use cut::cut;
 use fusion::{Field, Functional, Prices};
 use lines::lines;
 use patches::Patches;
@@ -125,7 +125,7 @@ pub fn torn(
     let patches = Patches::new(&steps.limits, target, map, field, groups);
     let mut price = steps.price;
     let mut rounds = 0;
-    let (y, absorbed_mm2) = loop {
+    let (y, absorbed) = loop {
         let torn = tear(steps, options, price, target, map, &patches);
         let count = || lines::count(&patches, &torn.0);
         if rounds == PRICE_ROUNDS || steps.most.is_none_or(|most| count() <= most as usize) {
@@ -135,7 +135,16 @@ pub fn torn(
         rounds += 1;
     };
     let cut = cut(target, map, &patches, &y, steps.limits.least_mm);
-    let (groups, depths) = solved(steps, options, &cut, &patches, field, groups)?;
+    let opening = cut.opening(&patches, steps, &absorbed);
+    let groups = with_bounds(groups, &cut.map, &cut.target, field);
+    let orders = if options.ordering {
+        &cut.orders[..]
+    } else {
+        &[]
+    };
+    let depths = opened_depths(options, &cut.target, &cut.map, &groups, orders, &opening)?;
+    let given_away = patches.patches.iter().zip(&absorbed).filter(|(_, a)| **a);
+    let absorbed_mm2 = given_away.map(|(p, _)| p.seen_mm2).sum();
     let (lines, summary) = lines(map, target, &patches, &cut.corners, &depths, absorbed_mm2);
     Ok(Torn {
         lines,
@@ -147,7 +156,7 @@ pub fn torn(
     })
 }
 
-/// The tears at a price, support by support; with the area given away because it was too narrow, square millimetres.
+/// The tears at a price, support by support, and which patches were given away because they were too narrow.
 fn tear(
     steps: &StepOptions,
     options: NormalOptions,
@@ -155,7 +164,7 @@ fn tear(
     target: &Target,
     map: &ViewMap,
     patches: &Patches,
-) -> (Field, f64) {
+) -> (Field, Vec<bool>) {
     let prices = Prices {
         tilt: 1f64.to_radians().powi(-2),
         length: price,
@@ -163,7 +172,7 @@ fn tear(
         crease: CREASE_REBATE,
         ordered: options.ordering,
     };
-    let results: Vec<(Field, f64)> = patches
+    let results: Vec<(Field, Vec<bool>)> = patches
         .by_support()
         .into_par_iter()
         .map(|(range, cells)| {
@@ -180,22 +189,6 @@ fn tear(
             (y, absorbed)
         })
         .collect();
-    let absorbed = results.iter().map(|r| r.1).sum();
-    (results.into_iter().flat_map(|r| r.0).collect(), absorbed)
-}
-
-/// Bounds for the cut mesh, and the exact program on it.
-fn solved(
-    steps: &StepOptions,
-    options: NormalOptions,
-    cut: &Cut,
-    patches: &Patches,
-    field: &SupportField,
-    groups: &Groups,
-) -> Result<(Groups, Depths), SolveError> {
-    let groups = with_bounds(groups, &cut.map, &cut.target, field);
-    let opening = cut.opening(patches, steps);
-    let orders = if options.ordering { &cut.orders[..] } else { &[] };
-    let depths = opened_depths(options, &cut.target, &cut.map, &groups, orders, &opening)?;
-    Ok((groups, depths))
+    let (fields, absorbed): (Vec<Field>, Vec<Vec<bool>>) = results.into_iter().unzip();
+    (fields.concat(), absorbed.concat())
 }
