@@ -13,7 +13,7 @@ const HIGH: [u8; 3] = [0x2A, 0x0E, 0x66];
 /// Shades between them. The lines of one shade are one shape, so that ends of short pieces do not darken each other.
 const SHADES: usize = 8;
 
-/// Width of the lines in hundredths of the panel's side. From 0.5 on they hide the errors in nests of small pieces.
+/// Width of the lines in hundredths of the panel's side: thin, so that errors between nearby lines stay in sight.
 const WIDTH: f64 = 0.28;
 
 /// Narrower ones would be painted piece by piece, pixels.
