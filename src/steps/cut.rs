@@ -5,7 +5,7 @@ use super::patches::Patches;
 use super::{Prefer, StepOptions};
 use crate::groups::Anchor;
 use crate::mesh::{DisjointSets, TriMesh};
-use crate::mimic::{Opening, Order, Step};
+use crate::mimic::{Depths, Opening, Order, Step};
 use crate::viewmap::{Target, ViewMap};
 
 /// Force on a millimetre of tear towards the preferred depth, relative to the mean diagonal of the quadratic form: far above its
@@ -95,6 +95,13 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
 }
 
 impl Cut {
+    /// The lowest step at a vertex of the cut, millimetres of depth.
+    pub fn lowest_mm(&self, depths: &Depths) -> Option<f64> {
+        let z = |v: u32| self.target.depth[v as usize] * depths.s[v as usize];
+        let heights = self.steps.iter().map(|s| z(s.far) - z(s.near));
+        heights.min_by(f64::total_cmp)
+    }
+
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
     /// Patches that are `absorbed` hardly count.
     pub fn opening(&self, patches: &Patches, options: &StepOptions, absorbed: &[bool]) -> Opening {

@@ -145,10 +145,14 @@ pub fn torn(
     let depths = opened_depths(options, &cut.target, &cut.map, &groups, orders, &opening)?;
     let given_away = patches.patches.iter().zip(&absorbed).filter(|(_, a)| **a);
     let absorbed_mm2 = given_away.map(|(p, _)| p.seen_mm2).sum();
-    let (lines, summary) = lines(map, target, &patches, &cut.corners, &depths, absorbed_mm2);
+    let (lines, summary) = lines(map, target, &patches, &cut.corners, &depths);
     Ok(Torn {
         lines,
-        summary,
+        summary: StepSummary {
+            lowest_mm: cut.lowest_mm(&depths),
+            absorbed_mm2,
+            ..summary
+        },
         target: cut.target,
         map: cut.map,
         groups,
