@@ -100,6 +100,10 @@ pub struct Step {
     pub most: f64,
 }
 
+/// Two points of a cut mesh on one ray that stay together although they share no vertices: weights of vertices, of which
+/// the weighted sum of `x` is to vanish.
+pub type Tie = Vec<(u32, f64)>;
+
 /// What a cut mesh brings along: a surface near the optimum, and the steps to keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
@@ -108,6 +112,7 @@ pub struct Opening {
     /// Force on every vertex, positive away from the eye, relative to the mean diagonal of the quadratic form.
     pub push: Vec<f64>,
     pub steps: Vec<Step>,
+    pub ties: Vec<Tie>,
     /// Factor of every face's weight.
     pub counts: Vec<f64>,
 }

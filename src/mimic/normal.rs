@@ -8,7 +8,7 @@
 use super::ordering::Order;
 use super::program::{Program, Quadratic, Row, RowKind, mean_diagonal};
 use super::{
-    Depths, FaceWeight, NormalOptions, Opening, SolveError, scales, seen_solid_angles, solve,
+    Depths, FaceWeight, NormalOptions, Opening, SolveError, Tie, scales, seen_solid_angles, solve,
 };
 use crate::groups::{Anchor, Groups};
 use crate::laplacian::FaceGeometry;
@@ -23,6 +23,10 @@ const REGULARISER: f64 = 1e-8;
 /// Faces turned by less than this (tangent, 0.06 degrees) count as turned by it in reweighting: below, weights of right
 /// faces grow until the matrix loses digits.
 const LEAST_TURN: f64 = 1e-3;
+
+/// Weight of a tie relative to the mean diagonal: what is left of a gap is far below anything printed. As rows ties might
+/// contradict bounds.
+const TIE: f64 = 10.0;
 
 /// Depths of the visible sub-mesh.
 pub fn depths(
@@ -48,14 +52,14 @@ pub fn depths(
     let mut program = Program {
         variables,
         linear: linear(opening, &index, unit, variables),
-        quadratic: faces.energy(&index, variables, &|_| 1.0),
+        quadratic: faces.energy(&index, variables, opening, &|_| 1.0),
         equalities: Vec::new(),
         rows,
     };
     let (mut u, mut solved) = solve(&program)?;
     for _ in 0..options.reweight {
         let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
-        program.quadratic = faces.energy(&index, variables, &|f| reweighted(turned(f)));
+        program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
         (u, solved) = solve(&program)?;
     }
     let s: Vec<f64> = index
@@ -117,6 +121,12 @@ impl Variables {
     /// The variable of a vertex of a seen face.
     fn at(&self, vertex: u32) -> usize {
         self.of_vertex[vertex as usize].expect("corners of seen faces take part") as usize
+    }
+
+    /// The variables of a tie.
+    fn tied(&self, tie: &Tie) -> Vec<(usize, f64)> {
+        let term = |(v, w): &(u32, f64)| Some((self.of_vertex[*v as usize]? as usize, *w));
+        tie.iter().filter_map(term).collect()
     }
 
     /// Terms of `factor * sum of weight * x` over the anchor's vertices.
@@ -192,6 +202,7 @@ impl Faces {
         &self,
         index: &Variables,
         variables: usize,
+        opening: Option<&Opening>,
         factor: &dyn Fn(usize) -> f64,
     ) -> sprs::CsMat<f64> {
         let mut quadratic = Quadratic::new(variables);
@@ -204,7 +215,9 @@ impl Faces {
         }
         let energy = quadratic.finish();
         let mean = mean_diagonal(&energy, index.count);
-        regularised(energy, mean)
+        let ties = opening.map_or(&[][..], |o| &o.ties);
+        let ties = ties.iter().map(|t| index.tied(t)).collect();
+        regularised(energy, mean, ties)
     }
 
     /// `tan theta` of a seen face under the depths `x` of the variables.
@@ -218,9 +231,18 @@ impl Faces {
     }
 }
 
-/// Scaled to a mean diagonal of 1, with the regulariser on every unknown.
-fn regularised(energy: sprs::CsMat<f64>, mean: f64) -> sprs::CsMat<f64> {
+/// Scaled to a mean diagonal of 1, with the ties, and the regulariser on every unknown.
+fn regularised(
+    energy: sprs::CsMat<f64>,
+    mean: f64,
+    ties: Vec<Vec<(usize, f64)>>,
+) -> sprs::CsMat<f64> {
+    let mut tied = Quadratic::new(energy.rows());
+    ties.iter().for_each(|t| tied.form(t, TIE));
     let mut triplets = sprs::TriMat::new((energy.rows(), energy.cols()));
+    tied.finish()
+        .iter()
+        .for_each(|(v, (i, j))| triplets.add_triplet(i, j, *v));
     energy
         .iter()
         .for_each(|(v, (i, j))| triplets.add_triplet(i, j, v / mean));

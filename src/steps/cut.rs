@@ -5,7 +5,7 @@ use super::patches::Patches;
 use super::{Prefer, StepOptions};
 use crate::groups::Anchor;
 use crate::mesh::{DisjointSets, TriMesh};
-use crate::mimic::{Depths, Opening, Order, Step};
+use crate::mimic::{Depths, Opening, Order, Step, Tie};
 use crate::viewmap::{Target, ViewMap};
 
 /// Force on a millimetre of tear towards the preferred depth, relative to the mean diagonal of the quadratic form: far above its
@@ -15,8 +15,13 @@ const PREFERENCE: f64 = 1e-5;
 /// Weight of patches given away because they were too narrow: the rest does not bend for them, but they do not crumple.
 const ABSORBED: f64 = 1e-3;
 
+/// Rows ask for a little more than the least step: the solver stops a thousandth short.
+const MARGIN: f64 = 1.01;
 /// Corners are joined below this many least steps, so that what stays apart has room to move.
 const CLOSED: f64 = 1.5;
+
+/// Weights that differ by less belong to the same point: rounding of image coordinates.
+const SHARED: f64 = 1e-3;
 
 /// The target cut along outlines and tear lines, with the view map that refers to it.
 pub struct Cut {
@@ -29,6 +34,7 @@ pub struct Cut {
     /// Log relief depth over the model's of every vertex.
     start: Vec<f64>,
     steps: Vec<Step>,
+    ties: Vec<Tie>,
 }
 
 /// A corner of a patch.
@@ -59,7 +65,7 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
             near,
             far,
             // At the layer's front a step must be largest in log depth.
-            least: (least_mm / target.depth[vertex(*a)] / front(*a)).ln_1p(),
+            least: (MARGIN * least_mm / target.depth[vertex(*a)] / front(*a)).ln_1p(),
             most: highest(a).min(highest(b)),
         }
     };
@@ -88,6 +94,7 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
         target: target.cut(mesh, &vertices),
         map,
         orders: orders(patches, &corners),
+        ties: ties(patches, &corners, &start, CLOSED * least_mm / patches.depth),
         corners,
         start,
         steps,
@@ -141,6 +148,7 @@ impl Cut {
             start: self.start.clone(),
             push,
             steps: self.steps.clone(),
+            ties: self.ties.clone(),
             counts: absorbed
                 .iter()
                 .map(|a| if *a { ABSORBED } else { 1.0 })
@@ -259,4 +267,31 @@ fn orders(patches: &Patches, corners: &[[u32; 3]]) -> Vec<Order> {
         }
     }
     orders
+}
+
+/// Where patches meet closer than `least` (log depth) without sharing the vertices around: at sides whose faces are no
+/// neighbours, because a thin face between them was merged away.
+fn ties(patches: &Patches, corners: &[[u32; 3]], start: &[f64], least: f64) -> Vec<Tie> {
+    let mut ties = Vec::new();
+    for seam in &patches.seams {
+        for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
+            let side = |k: usize, sign: f64| {
+                let vertices = corners[seam.patches[k] as usize];
+                (0..3).map(move |i| (vertices[i], sign * weights[k][i]))
+            };
+            let mut tie: Tie = side(0, 1.0).chain(side(1, -1.0)).collect();
+            tie.sort_by_key(|t| t.0);
+            tie.dedup_by(|b, a| {
+                let same = a.0 == b.0;
+                a.1 += if same { b.1 } else { 0.0 };
+                same
+            });
+            tie.retain(|t| t.1.abs() > SHARED);
+            let open: f64 = tie.iter().map(|(v, w)| w * start[*v as usize]).sum();
+            if gap == 0.0 && !tie.is_empty() && open.abs() < least {
+                ties.push(tie);
+            }
+        }
+    }
+    ties
 }

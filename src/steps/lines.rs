@@ -10,8 +10,8 @@ use crate::viewmap::{Target, ViewMap};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
-/// Lower steps are rounding: a micrometre.
-const STEP_MM: f64 = 1e-3;
+/// Lower steps are none: the relief makes one level of them.
+const STEP_MM: f64 = 3e-3;
 
 /// A piece of a tear line.
 #[derive(Clone, Copy, Debug, PartialEq)]
