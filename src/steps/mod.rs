@@ -39,8 +39,9 @@
 //! 3. The mesh is cut along the tears and [`mimic`](crate::mimic) solves the exact quadratic program on it, with the height
 //!    and direction of every step as rows.
 //!
-//! For a metric cost alpha expansion ends within twice the optimum. On small grids searched by brute force (tests) it was
-//! at most 5 % above.
+//! Alpha expansion of a metric cost ends within twice the optimum. On 150 small sheets of triangles whose optimum over the
+//! same levels is known (tests) the sum of all values was 1 % above it, with a contour across every sheet 5 to 11 %. With a limit
+//! to the height of steps the cost is no metric any more: 18 to 20 %, with contours too 22 to 27 %.
 
 mod cut;
 mod fusion;
@@ -55,9 +56,9 @@ use crate::groups::{Groups, with_bounds};
 use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
 use crate::viewmap::{SupportField, Target, ViewMap};
 use cut::{Cut, cut};
-use fusion::{Field, Functional, Prices};
+use fusion::{Field, Functional, Prices, pressed};
 use lines::lines;
-use patches::Patches;
+use patches::{Patch, Patches};
 use rayon::prelude::*;
 
 /// An opening that nobody sees, radians: two arc-minutes.
@@ -125,26 +126,35 @@ pub fn torn(
     let patches = Patches::new(&steps.limits, target, map, field, groups);
     let mut price = steps.price;
     let mut rounds = 0;
-    let (y, absorbed_mm2) = loop {
-        let torn = tear(steps, options, price, target, map, &patches);
-        let count = || lines::count(&patches, &torn.0);
-        if rounds == PRICE_ROUNDS || steps.most.is_none_or(|most| count() <= most as usize) {
-            break torn;
-        }
-        price *= PRICE_GROWTH;
+    loop {
+        let (y, absorbed_mm2) = tear(steps, options, price, target, map, &patches);
+        let last = rounds == PRICE_ROUNDS;
         rounds += 1;
-    };
-    let cut = cut(target, map, &patches, &y, steps.limits.least_mm);
-    let (groups, depths) = solved(steps, options, &cut, &patches, field, groups)?;
-    let (lines, summary) = lines(map, target, &patches, &cut.corners, &depths, absorbed_mm2);
-    Ok(Torn {
-        lines,
-        summary,
-        target: cut.target,
-        map: cut.map,
-        groups,
-        depths,
-    })
+        price *= PRICE_GROWTH;
+        let too_many = |most: u32| lines::count(target, &patches, &y) > most as usize;
+        if !last && steps.most.is_some_and(too_many) {
+            continue;
+        }
+        let cut = cut(target, map, &patches, &y, steps.limits.least_mm);
+        let (groups, depths) = match solved(steps, options, &cut, &patches, field, groups) {
+            // Limits that contradict each other: with fewer tears there are fewer of them.
+            Err(SolveError::Infeasible(_)) if !last => continue,
+            result => result?,
+        };
+        let (lines, summary) = lines(map, target, &patches, &cut.corners, &depths, absorbed_mm2);
+        // Solving may open a line that the field's corners did not show.
+        if !last && steps.most.is_some_and(|most| summary.lines > most as usize) {
+            continue;
+        }
+        return Ok(Torn {
+            lines,
+            summary,
+            target: cut.target,
+            map: cut.map,
+            groups,
+            depths,
+        });
+    }
 }
 
 /// The tears at a price, support by support; with the area given away because it was too narrow, square millimetres.
@@ -167,12 +177,9 @@ fn tear(
         .by_support()
         .into_par_iter()
         .map(|(range, cells)| {
-            // The layer's middle: continuous, in order, within all bounds.
-            let middle = |(lo, hi): (f64, f64)| (lo + hi) / 2.0;
-            let mut y: Field = patches.patches[range.clone()]
-                .iter()
-                .map(|p| p.room.map(middle))
-                .collect();
+            let corners = |p: &Patch| target.mesh.faces[p.face as usize];
+            let depth = |p: &Patch| corners(p).map(|v| target.depth[v as usize]);
+            let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);
             functional.descend(&mut y);
             let narrowest = steps.narrowest_mm;
@@ -195,7 +202,11 @@ fn solved(
 ) -> Result<(Groups, Depths), SolveError> {
     let groups = with_bounds(groups, &cut.map, &cut.target, field);
     let opening = cut.opening(patches, steps);
-    let orders = if options.ordering { &cut.orders[..] } else { &[] };
+    let orders = if options.ordering {
+        &cut.orders[..]
+    } else {
+        &[]
+    };
     let depths = opened_depths(options, &cut.target, &cut.map, &groups, orders, &opening)?;
     Ok((groups, depths))
 }
