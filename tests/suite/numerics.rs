@@ -2,7 +2,7 @@
 
 use crate::shapes::{EYE, MIDDLE, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
-use pillarforest::geom::{ImagePlane, barycentric, orient, solid_angle};
+use pillarforest::geom::{barycentric, orient, solid_angle};
 use pillarforest::groups::{Groups, anchor, groups};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
@@ -12,7 +12,7 @@ use pillarforest::mimic::{
 };
 use pillarforest::relief::{Relief, relief};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
+use pillarforest::viewmap::{SupportField, Target, ViewMap};
 
 const NORMAL: Energy = Energy::Normal(NormalOptions {
     weight: FaceWeight::Area,

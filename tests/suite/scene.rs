@@ -378,10 +378,14 @@ fn steps_are_allowed_from_two_pillars_on_unless_the_scene_says_otherwise() {
 #[test]
 fn limits_of_steps_follow_the_units() {
     let options = "Allowed(least: 0.02, highest: 0.3, tolerance: 4, most: 7, price: 5, narrowest: 0.06, prefer: Camouflage)";
-    let text = PLAIN.replace("units: mm", "units: cm").replace(
-        "    base:",
-        &format!("    energy: Normal(steps: {options}),\n    base:"),
-    );
+    let text = PLAIN
+        .replace("units: mm", "units: cm")
+        .replace("00,", "0,")
+        .replace("300)", "30)")
+        .replace(
+            "    base:",
+            &format!("    energy: Normal(steps: {options}),\n    base:"),
+        );
     let wanted = StepOptions {
         limits: StepLimits {
             least_mm: 0.2,
