@@ -137,7 +137,14 @@ pub fn with_bounds(
     field: &SupportField,
 ) -> Groups {
     Groups {
-        bounds: bounds(map, target, field, &groups.groups, &groups.of_cell, &groups.slabs),
+        bounds: bounds(
+            map,
+            target,
+            field,
+            &groups.groups,
+            &groups.of_cell,
+            &groups.slabs,
+        ),
         ..groups.clone()
     }
 }

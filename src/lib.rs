@@ -17,6 +17,7 @@
 //! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |
 //! | view map | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
 //! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
+//! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | forest and views | [`render::view_picture`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |

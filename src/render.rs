@@ -1,12 +1,14 @@
 //! View pictures: what an eye sees, found by casting rays at the finished solid. Here in even light, in [`lights`] in real light.
 //!
-//! Takes a view and the finished forest, gives a picture (target | forest | normal error) and the figures under it.
+//! Takes a view, the finished forest and the lines where it was torn, gives a picture (target | forest | normal error with the
+//! lines) and the figures under it.
 //! The figures use one ray through every pixel's centre; the pictures are smoothed by four more where neighbours differ.
 //! Rows run in parallel; the result does not depend on the thread count.
 
 mod light_sheet;
 pub mod lights;
 mod shading;
+mod step_lines;
 mod thumbnail;
 
 pub use lights::{LightLikeness, light_pictures};
@@ -18,11 +20,13 @@ use crate::diagram::lettering::{Face, width};
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
+use crate::steps::{StepLine, StepSummary};
 use crate::view::View;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 use shading::{Lights, Rgb, smoothed};
+use step_lines::{Panel, step_lines};
 
 /// The picture's half width over the model's: a little air around it.
 const MARGIN: f64 = 1.05;
@@ -58,12 +62,14 @@ pub struct Likeness {
 }
 
 /// Draws and measures one view. `size_px` is the side of one of the three panels (16 to 2048), a panel being as in
-/// [`camera`]. `colours`, one per face of the forest, tint its panel lightly.
+/// [`camera`]. `colours`, one per face of the forest, tint its panel lightly. `steps` are drawn over the errors and told in the
+/// caption: the lines where the surface was torn, if it might be.
 pub fn view_picture(
     view: &View,
     forest: &TriMesh,
     forest_bvh: &Bvh,
     colours: Option<&[[u8; 3]]>,
+    steps: Option<(&[StepLine], StepSummary)>,
     size_px: u32,
 ) -> (Likeness, Vec<u8>) {
     let size = size_px.clamp(16, 2048) as usize;
@@ -99,7 +105,8 @@ pub fn view_picture(
     let panels = |look: Look| look.panels(&target, forest, colours, &lights);
     let centres: Vec<[Rgb; 3]> = looks.iter().map(|l| panels(*l)).collect();
     let pixels = smoothed(&centres, size, |x, y| panels(look(x, y)));
-    (likeness, compose(view, &likeness, &pixels, size))
+    let picture = compose(view, (plane, half), &likeness, steps, &pixels, size);
+    (likeness, picture)
 }
 
 /// The camera of a view's pictures: towards the middle of its models, upright, square, with the tangent of half the
@@ -209,7 +216,14 @@ fn percentile(sorted: &[f64], share: f64) -> f64 {
 }
 
 /// Puts the three panels side by side and writes the captions below.
-fn compose(view: &View, likeness: &Likeness, pixels: &[[Rgb; 3]], size: usize) -> Vec<u8> {
+fn compose(
+    view: &View,
+    (plane, half): (ImagePlane, f64),
+    likeness: &Likeness,
+    steps: Option<(&[StepLine], StepSummary)>,
+    pixels: &[[Rgb; 3]],
+    size: usize,
+) -> Vec<u8> {
     let unit = size as f64 / 100.0;
     let gap = (3.0 * unit).round() as usize;
     let caption = (13.0 * unit).round() as usize;
@@ -221,11 +235,22 @@ fn compose(view: &View, likeness: &Likeness, pixels: &[[Rgb; 3]], size: usize) -
     }
     let mut drawing = Drawing::new(DVec2::new(w as f64, h as f64));
     let column = |panel: usize| (gap + panel * (size + gap)) as f64;
+    if let Some((lines, _)) = steps {
+        let panel = Panel {
+            plane,
+            half,
+            corner: DVec2::new(column(2), gap as f64),
+            side: size as f64,
+        };
+        step_lines(&mut drawing, lines, panel);
+    }
+    let torn = steps.map(|(lines, summary)| step_lines::caption(lines, &summary));
     let top = (size + gap) as f64 + 6.5 * unit;
     captions(
         &mut drawing,
         view,
         likeness,
+        torn.as_deref(),
         [column(0), column(1), column(2)],
         top,
         unit,
@@ -241,6 +266,7 @@ fn captions(
     drawing: &mut Drawing,
     view: &View,
     likeness: &Likeness,
+    torn: Option<&str>,
     columns: [f64; 3],
     top: f64,
     unit: f64,
@@ -258,10 +284,15 @@ fn captions(
         face: Face::Light,
         ..head
     };
-    let below = top + 5.2 * unit;
+    // Below the scale's figures, which the last column's second line passes under.
+    let below = top + 6.6 * unit;
     let mut put = |x: f64, y: f64, text: &str, style: TextStyle| {
-        // The third column ends where the scale starts.
-        let most = if x < columns[2] { 98.0 } else { 62.0 };
+        // The third column's first line ends where the scale starts.
+        let most = if x < columns[2] || y > top {
+            98.0
+        } else {
+            62.0
+        };
         let fit = (most * unit / width(text, style.size, style.face).max(1e-9)).min(1.0);
         drawing.text(
             DVec2::new(x, y),
@@ -294,15 +325,16 @@ fn captions(
         ..
     } = *likeness;
     put(columns[2], top, "error of the normals", head);
+    let torn = torn.map_or_else(String::new, |text| format!("; {text}"));
     put(
         columns[2],
         below,
-        &format!("mean {mean_deg:.1}°, median {median_deg:.1}°, 90 % below {p90_deg:.1}°"),
+        &format!("mean {mean_deg:.1}°, median {median_deg:.1}°, 90 % below {p90_deg:.1}°{torn}"),
         body,
     );
     scale(
         drawing,
-        DVec2::new(columns[2] + 66.0 * unit, top - 2.8 * unit),
+        DVec2::new(columns[2] + 66.0 * unit, top - 3.3 * unit),
         unit,
     );
 }

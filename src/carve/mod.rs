@@ -17,11 +17,58 @@ use crate::relief::{Relief, block};
 use crate::support::Support;
 use crate::viewmap::ViewMap;
 use boolean::{Boolean, BooleanError};
+use glam::DVec3;
 use rayon::prelude::*;
 
-/// How far a relief's edge is bedded in its support, millimetres at the support: less than a tenth of a printed line, so unseen.
-/// Where operands happen to touch at one width and cannot be mended, the next is tried. At 0.002 (the thinnest cells) they always touch.
-const BED_MM: [f64; 6] = [0.012, 0.015, 0.010, 0.019, 0.008, 0.025];
+/// Widths that make operands overlap where they would only touch. Where they happen to touch all the same and cannot be
+/// mended, the next are tried.
+#[derive(Clone, Copy)]
+struct Widths {
+    /// How far a relief's edge is bedded in its support, millimetres at the support: less than a tenth of a printed line, so
+    /// unseen. At 0.002 (the thinnest cells) operands always touch.
+    bed: f64,
+    /// How far it goes on behind a nearer support, millimetres.
+    lap: f64,
+}
+
+const WIDTHS: [Widths; 8] = [
+    Widths {
+        bed: 0.012,
+        lap: 0.040,
+    },
+    Widths {
+        bed: 0.015,
+        lap: 0.053,
+    },
+    Widths {
+        bed: 0.010,
+        lap: 0.033,
+    },
+    Widths {
+        bed: 0.019,
+        lap: 0.067,
+    },
+    Widths {
+        bed: 0.008,
+        lap: 0.046,
+    },
+    Widths {
+        bed: 0.025,
+        lap: 0.081,
+    },
+    Widths {
+        bed: 0.013,
+        lap: 0.060,
+    },
+    Widths {
+        bed: 0.017,
+        lap: 0.028,
+    },
+];
+/// Unions that came out unsound and were made again with other widths of one support: three are needed now and then.
+const UNIONS: usize = 16;
+/// Supports nearer than this to a defect may have caused it, millimetres.
+const SUSPECT_MM: f64 = 0.5;
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
 const CRUMB_MM3: f64 = 0.005;
 
@@ -77,6 +124,17 @@ pub enum CarveError {
     Unsound { place: String, defects: Vec<Defect> },
 }
 
+impl CarveError {
+    /// Where defects were found.
+    fn places(&self) -> impl Iterator<Item = DVec3> {
+        let defects = match self {
+            Self::Boolean { .. } => &[][..],
+            Self::Unsound { defects, .. } => defects,
+        };
+        defects.iter().filter_map(|d| d.place)
+    }
+}
+
 fn list(defects: &[Defect]) -> String {
     defects
         .iter()
@@ -88,12 +146,30 @@ fn list(defects: &[Defect]) -> String {
 /// Carves and unites everything.
 ///
 /// # Errors
-/// If the boolean library refuses an operand or a solid stays unsound at every width tried, with the support.
+/// If the boolean library refuses an operand or a solid stays unsound at all widths tried, with the support.
 pub fn carve(supports: &[Support], views: &[ViewRelief]) -> Result<Forest, CarveError> {
-    let carved: Vec<Carved> = (0..supports.len())
+    let mut carved: Vec<Carved> = (0..supports.len())
         .into_par_iter()
-        .map(|s| carve_support(supports, s, views))
+        .map(|s| carve_support(supports, s, views, 0))
         .collect::<Result<_, _>>()?;
+    for _ in 1..UNIONS {
+        let error = match unite(&carved, views) {
+            Ok(forest) => return Ok(forest),
+            Err(error) => error,
+        };
+        // Of the supports at the defect the one tried least often is carved anew.
+        let near = |s: &usize| error.places().any(|p| carved[*s].is_near(p));
+        let suspects = (0..carved.len()).filter(|s| carved[*s].widths + 1 < WIDTHS.len());
+        let Some(s) = suspects.filter(near).min_by_key(|s| carved[*s].widths) else {
+            return Err(error);
+        };
+        carved[s] = carve_support(supports, s, views, carved[s].widths + 1)?;
+    }
+    unite(&carved, views)
+}
+
+/// The forest of carved supports.
+fn unite(carved: &[Carved], views: &[ViewRelief]) -> Result<Forest, CarveError> {
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
     let of_view = |v: usize| {
@@ -144,10 +220,11 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
     sound(&whole, place).map(Some)
 }
 
-/// The result of booleans as a checked solid: as it is, mended, or mended after slivers were simplified away.
+/// The result of booleans as a checked solid, mended: with slivers simplified away, which is fast but may cross long faces, as
+/// it is, or more simplified.
 fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
-    for tolerance in [1e-4, 5e-4, 0.0] {
+    for tolerance in [1e-4, 0.0, 5e-4] {
         match Solid::new(mend(&solid.simplified(tolerance))) {
             Ok(solid) => return Ok(solid),
             Err(d) => defects = d,
@@ -165,30 +242,41 @@ struct Carved {
     bare: Solid,
     blocks: Vec<(usize, Solid)>,
     repairs: Repairs,
+    /// Index into [`WIDTHS`].
+    widths: usize,
 }
 
-/// Carves one support, at the first bed width that comes out sound.
+impl Carved {
+    fn is_near(&self, place: DVec3) -> bool {
+        let (lo, hi) = self.whole.bounds();
+        place.cmpge(lo - SUSPECT_MM).all() && place.cmple(hi + SUSPECT_MM).all()
+    }
+}
+
+/// Carves one support, at the first widths from `first` on that come out sound.
 fn carve_support(
     supports: &[Support],
     s: usize,
     views: &[ViewRelief],
+    first: usize,
 ) -> Result<Carved, CarveError> {
     let mut last = None;
-    for bed in BED_MM {
-        match carve_at(&supports[s], s as u32, views, bed) {
+    for widths in first..WIDTHS.len() {
+        match carve_at(&supports[s], s as u32, views, widths) {
             Ok(carved) => return Ok(carved),
             Err(error) => last = Some(error),
         }
     }
-    Err(last.unwrap_or_else(|| unreachable!("at least one width is tried")))
+    Err(last.unwrap_or_else(|| unreachable!("there are widths from `first` on")))
 }
 
 fn carve_at(
     support: &Support,
     s: u32,
     views: &[ViewRelief],
-    bed: f64,
+    widths: usize,
 ) -> Result<Carved, CarveError> {
+    let Widths { bed, lap } = WIDTHS[widths];
     let failed = |source| CarveError::Boolean {
         place: support.name.clone(),
         source,
@@ -202,9 +290,8 @@ fn carve_at(
             continue;
         };
         let back = |q| slab.plane(view.map.plane.direction(q), slab.backing());
-        let made = block(view.map, &cells, &view.relief.depth, back, |c, k| {
-            hidden(view.map, c, k)
-        });
+        let behind = |c, k| hidden(view.map, c, k);
+        let made = block(view.map, &cells, &view.relief.depth, back, behind, lap);
         repairs.filled += made.filled;
         repairs.dropped_cells += made.dropped;
         let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
@@ -246,6 +333,7 @@ fn carve_at(
         whole: sound(&whole, &name("with reliefs"))?,
         bare: sound(&bare, &name("carved"))?,
         repairs,
+        widths,
     })
 }
 

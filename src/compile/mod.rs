@@ -91,7 +91,7 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
     warnings.extend(loose(&forest));
     progress("pictures", 0.75);
-    let pictures = pictures(scene, &forest);
+    let pictures = pictures(scene, &shapes, &forest);
     let report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
     progress("files", 0.9);
     let summary = summary(scene, &forest, &pictures);

@@ -2,10 +2,12 @@
 
 use super::OutputFile;
 use super::files::file;
+use super::sight::Shape;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::render::{LightLikeness, Likeness, light_pictures, view_picture};
 use crate::scene::Scene;
+use crate::view::View;
 
 /// One view's pictures (PNG) and figures.
 pub struct Pictures {
@@ -15,19 +17,21 @@ pub struct Pictures {
     pub lights: Option<(Vec<LightLikeness>, Vec<u8>)>,
 }
 
-/// The pictures of every view.
-pub fn pictures(scene: &Scene, forest: &Forest) -> Vec<Pictures> {
+/// The pictures of every view; `shapes` are the views'.
+pub fn pictures(scene: &Scene, shapes: &[Shape], forest: &Forest) -> Vec<Pictures> {
     let mesh = forest.whole.mesh();
     let bvh = Bvh::new(mesh);
-    let of_view = |v| {
-        let (likeness, view) = view_picture(v, mesh, &bvh, None, scene.output.picture_size);
+    let of_view = |(v, shape): (&View, &Shape)| {
+        let steps = shape.steps.as_ref().map(|(lines, all)| (&lines[..], *all));
+        let size = scene.output.picture_size;
+        let (likeness, view) = view_picture(v, mesh, &bvh, None, steps, size);
         Pictures {
             likeness,
             view,
             lights: (scene.output.lights).then(|| light_pictures(v, mesh, &bvh)),
         }
     };
-    scene.views.iter().map(of_view).collect()
+    scene.views.iter().zip(shapes).map(of_view).collect()
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.

@@ -111,10 +111,17 @@ impl Sight<'_> {
 
     /// Optimises, cuts and scales back.
     pub fn shape(&self, scene: &Scene, field: &SupportField) -> Result<Shape, Vec<Diagnostic>> {
-        let Self { target, map, groups, .. } = self;
+        let Self {
+            target,
+            map,
+            groups,
+            ..
+        } = self;
         let explained = |e| vec![self.explain(e, field)];
         if let (Energy::Normal(options), Some(steps)) = (scene.energy, &scene.steps) {
-            let torn = torn(steps, options, target, map, field, groups).map_err(explained)?;
+            let torn = torn(steps, options, target, map, field, groups);
+            // Its rows belong to the cut mesh: only the kind of failure is told.
+            let torn = torn.map_err(|e| explained(e.without_row()))?;
             return Ok(Shape {
                 relief: relief(&torn.map, &torn.target, field, &torn.groups, &torn.depths),
                 depths: torn.depths,

@@ -8,6 +8,7 @@
 use crate::mesh::TriMesh;
 use crate::mesh::detach::detach;
 use crate::mesh::intersect::self_intersections;
+use crate::mesh::separate::separate;
 use crate::mesh::weld::{cancel_folds, drop_collapsed, drop_unreferenced, snap_to_f32};
 use glam::DVec3;
 use std::collections::VecDeque;
@@ -39,10 +40,21 @@ pub fn mend(mesh: &TriMesh) -> TriMesh {
         }
         dissolve(&mut mesh, trouble, height);
     }
-    match best {
+    let mesh = match best {
         Some((count, better)) if count < trouble(&mesh).len() => better,
         _ => mesh,
+    };
+    drawn_apart(mesh)
+}
+
+/// What dissolving left is drawn apart, if that helps everywhere.
+fn drawn_apart(mesh: TriMesh) -> TriMesh {
+    let pairs = self_intersections(&mesh, MAX_PAIRS);
+    let mut apart = mesh.clone();
+    if !pairs.is_empty() && separate(&mut apart, &pairs) {
+        return apart;
     }
+    mesh
 }
 
 /// Faces that cut others, their neighbourhoods and faces without area, rising.

@@ -7,6 +7,7 @@ pub mod gate;
 pub mod intersect;
 pub mod mend;
 pub mod polygon;
+pub mod separate;
 pub mod shells;
 pub mod solid;
 pub mod topology;

@@ -108,6 +108,8 @@ pub struct Opening {
     /// Force on every vertex, positive away from the eye, relative to the mean diagonal of the quadratic form.
     pub push: Vec<f64>,
     pub steps: Vec<Step>,
+    /// Factor of every face's weight.
+    pub counts: Vec<f64>,
 }
 
 /// [`depths`] of a mesh cut at the outlines of supports, under [`Energy::Normal`]. Every piece has its own scale then, so that

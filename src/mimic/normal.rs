@@ -36,9 +36,13 @@ pub fn depths(
     let seen = seen_solid_angles(target, map);
     let index = Variables::new(target, &seen);
     let unit = typical_width(groups);
-    let scales_of_groups = if opening.is_some() { 0 } else { groups.groups.len() };
+    let scales_of_groups = if opening.is_some() {
+        0
+    } else {
+        groups.groups.len()
+    };
     let variables = index.count + scales_of_groups;
-    let faces = Faces::new(options.weight, target, map, &seen);
+    let faces = Faces::new(options.weight, target, map, &seen, opening);
     let mut rows = rows(groups, orders, &index, unit, opening.is_none());
     rows.extend(opening.iter().flat_map(|o| step_rows(o, &index, unit)));
     let mut program = Program {
@@ -70,7 +74,7 @@ pub fn depths(
 /// The regulariser's pull to where the surface starts, and the forces on it.
 fn linear(opening: Option<&Opening>, index: &Variables, unit: f64, variables: usize) -> Vec<f64> {
     let mut linear = vec![0.0; variables];
-    for opening in opening {
+    if let Some(opening) = opening {
         for (v, i) in index.of_vertex.iter().enumerate() {
             if let Some(i) = i {
                 linear[*i as usize] = -REGULARISER * opening.start[v] / unit - opening.push[v];
@@ -153,7 +157,13 @@ struct Faces {
 }
 
 impl Faces {
-    fn new(weight: FaceWeight, target: &Target, map: &ViewMap, seen: &[f64]) -> Self {
+    fn new(
+        weight: FaceWeight,
+        target: &Target,
+        map: &ViewMap,
+        seen: &[f64],
+        opening: Option<&Opening>,
+    ) -> Self {
         let geometry = FaceGeometry::new(&target.mesh);
         let eye = map.plane.eye;
         let face = |f: usize| {
@@ -168,7 +178,8 @@ impl Faces {
                 }
             };
             let turn = geometry.cotangents[f].map(|cot| h * h * cot / (2.0 * area));
-            (target.mesh.faces[f], turn, weight)
+            let factor = opening.map_or(1.0, |o| o.counts[f]);
+            (target.mesh.faces[f], turn, weight * factor)
         };
         let seen = (0..seen.len()).filter(|f| seen[*f] > 0.0);
         Self {
@@ -218,13 +229,7 @@ fn regularised(energy: sprs::CsMat<f64>, mean: f64) -> sprs::CsMat<f64> {
 }
 
 /// Bounds (Eq 11) and orders (Eq 12), on `x - m` where groups have scales and on `x` where they are 1.
-fn rows(
-    groups: &Groups,
-    orders: &[Order],
-    index: &Variables,
-    unit: f64,
-    scaled: bool,
-) -> Vec<Row> {
+fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64, scaled: bool) -> Vec<Row> {
     let m = |g: u32| index.count + g as usize;
     let mut rows = Vec::with_capacity(2 * groups.bounds.len() + orders.len());
     for (i, bound) in groups.bounds.iter().enumerate() {

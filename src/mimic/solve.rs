@@ -35,6 +35,16 @@ pub enum SolveError {
     Unsolved(String),
 }
 
+impl SolveError {
+    /// The same without the row it names.
+    pub fn without_row(self) -> Self {
+        match self {
+            Self::Infeasible(_) => Self::Infeasible(None),
+            other => other,
+        }
+    }
+}
+
 /// Solves the program; gives its variables.
 pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
     let p = csc(&program.quadratic);

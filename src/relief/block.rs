@@ -18,11 +18,6 @@ const LEVEL_MM: f64 = 0.003;
 /// How far a touching corner is pulled in, millimetres: five times the thinnest cell of a tidy view map.
 const PULL_MM: f64 = 0.01;
 
-/// How far a relief goes on behind the outline of a nearer support, millimetres: reliefs of neighbouring pillars whose depths
-/// overlap would touch in a wall along the rays there; so they truly overlap, unseen. Below 0.01 mending could not tell overlap
-/// from contact.
-const LAP_MM: f64 = 0.04;
-
 /// Corners around a point on the edge must leave this much of a circle open, or the region overlaps itself there; radians.
 const FULL_TURN: f64 = std::f64::consts::TAU - 0.01;
 
@@ -37,13 +32,16 @@ pub struct Block {
 }
 
 /// The solid over `cells` (rising indices) with corner depths `depth` (index: cell of the map) and a back at `back(q)`.
-/// `hidden(cell, side)` tells whether the support of the cell goes on behind that side, hidden by a nearer one.
+/// `hidden(cell, side)` tells whether the support of the cell goes on behind that side, hidden by a nearer one: there the relief
+/// goes on by `lap_mm`. Reliefs of neighbouring pillars whose depths overlap would touch in a wall along the rays there; so they
+/// truly overlap, unseen. Below 0.01 mm mending could not tell overlap from contact.
 pub fn block(
     map: &ViewMap,
     cells: &[u32],
     depth: &[Option<[f64; 3]>],
     back: impl Fn(DVec2) -> f64,
     hidden: impl Fn(u32, usize) -> bool,
+    lap_mm: f64,
 ) -> Block {
     let mut kept: Vec<u32> = cells
         .iter()
@@ -56,7 +54,7 @@ pub fn block(
         let stuck = field.pull_apart(map, PULL_MM);
         if stuck.is_empty() {
             let filled = field.settle();
-            field.lap(&hidden);
+            field.lap(&hidden, lap_mm);
             return Block {
                 mesh: field.solid(map, back),
                 filled,
@@ -319,7 +317,7 @@ impl Field {
     }
 
     /// Moves the edge behind nearer supports outwards, as far as no cell turns over.
-    fn lap(&mut self, hidden: &impl Fn(u32, usize) -> bool) {
+    fn lap(&mut self, hidden: &impl Fn(u32, usize) -> bool, lap_mm: f64) {
         let mut outwards: BTreeMap<u32, DVec2> = BTreeMap::new();
         for c in 0..self.cells.len() {
             for k in
@@ -335,7 +333,7 @@ impl Field {
         let mut homes: BTreeMap<u32, DVec2> = BTreeMap::new();
         for (f, direction) in outwards {
             let home = self.fans[f as usize].q;
-            if self.shift(f as usize, direction, LAP_MM) {
+            if self.shift(f as usize, direction, lap_mm) {
                 homes.insert(f, home);
             }
         }

@@ -5,12 +5,15 @@ use super::patches::Patches;
 use super::{Prefer, StepOptions};
 use crate::groups::Anchor;
 use crate::mesh::{DisjointSets, TriMesh};
-use crate::mimic::{Opening, Order, Step};
+use crate::mimic::{Depths, Opening, Order, Step};
 use crate::viewmap::{Target, ViewMap};
 
 /// Force on a millimetre of tear towards the preferred depth, relative to the mean diagonal of the quadratic form: far above its
 /// regulariser, and too little to bend a surface by a thousandth of its layer.
 const PREFERENCE: f64 = 1e-5;
+
+/// Weight of patches given away because they were too narrow: the rest does not bend for them, but they do not crumple.
+const ABSORBED: f64 = 1e-3;
 
 /// Corners are joined below this many least steps, so that what stays apart has room to move.
 const CLOSED: f64 = 1.5;
@@ -101,8 +104,16 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
 }
 
 impl Cut {
+    /// The lowest step at a vertex of the cut, millimetres of depth.
+    pub fn lowest_mm(&self, depths: &Depths) -> Option<f64> {
+        let z = |v: u32| self.target.depth[v as usize] * depths.s[v as usize];
+        let heights = self.steps.iter().map(|s| z(s.far) - z(s.near));
+        heights.min_by(f64::total_cmp)
+    }
+
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
-    pub fn opening(&self, patches: &Patches, options: &StepOptions) -> Opening {
+    /// Patches that are `absorbed` hardly count.
+    pub fn opening(&self, patches: &Patches, options: &StepOptions, absorbed: &[bool]) -> Opening {
         let sign = match options.prefer {
             Prefer::Tolerance => PREFERENCE,
             Prefer::Camouflage => -PREFERENCE,
@@ -139,6 +150,10 @@ impl Cut {
             start: self.start.clone(),
             push,
             steps: self.steps.clone(),
+            counts: absorbed
+                .iter()
+                .map(|a| if *a { ABSORBED } else { 1.0 })
+                .collect(),
         }
     }
 }

@@ -36,8 +36,10 @@ pub struct StepSummary {
     pub pieces: usize,
     /// Length of all tear lines at the model's mean depth.
     pub length_mm: f64,
-    /// Smallest step that is not zero at a vertex of the cut, mean over the length, and largest.
-    pub lowest_mm: f64,
+    /// Lowest step at a vertex of the cut (from there steps may fall to nothing at the end of a line).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lowest_mm: Option<f64>,
+    /// Mean height over the length, and largest.
     pub mean_mm: f64,
     pub highest_mm: f64,
     /// How far the eye may move sideways before the largest step opens by two arc-minutes.
@@ -98,7 +100,6 @@ pub fn lines(
     patches: &Patches,
     corners: &[[u32; 3]],
     depths: &Depths,
-    absorbed_mm2: f64,
 ) -> (Vec<StepLine>, StepSummary) {
     // Distance in the model, and relative depth.
     let place = |p: u32, q: DVec2| {
@@ -134,7 +135,6 @@ pub fn lines(
     let summary = StepSummary {
         lines: count,
         pieces,
-        absorbed_mm2,
         ..measured(&lines)
     };
     (lines, summary)
@@ -161,7 +161,6 @@ fn measured(lines: &[StepLine]) -> StepSummary {
     let parallax = lines.iter().flat_map(|l| l.parallax).fold(0.0, f64::max);
     StepSummary {
         length_mm,
-        lowest_mm: heights().fold(highest_mm, f64::min),
         mean_mm: if length_mm > 0.0 {
             weighted / length_mm
         } else {

@@ -146,7 +146,11 @@ impl Patches {
 fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<(u32, u32, u32)>, Vec<Option<u32>>) {
     let key = |c: usize| {
         let group = groups.of_cell[c]?;
-        Some((groups.groups[group as usize].support, group, map.cells[c].face?))
+        Some((
+            groups.groups[group as usize].support,
+            group,
+            map.cells[c].face?,
+        ))
     };
     let mut keys: Vec<(u32, u32, u32)> = (0..map.cells.len()).filter_map(key).collect();
     keys.sort_unstable();
@@ -201,12 +205,20 @@ fn patch(
 fn highest(limits: &StepLimits, target: &Target, p: &Patch) -> f64 {
     let depth = target.mesh.faces[p.face as usize].map(|v| target.depth[v as usize]);
     let at = |k: usize, y: f64| depth[k] * y.exp();
-    let nearest = (0..3).map(|k| at(k, p.room[k].0)).fold(f64::INFINITY, f64::min);
+    let nearest = (0..3)
+        .map(|k| at(k, p.room[k].0))
+        .fold(f64::INFINITY, f64::min);
     let farthest = (0..3).map(|k| at(k, p.room[k].1)).fold(0.0, f64::max);
-    let by_height = limits.highest_mm.map_or(f64::INFINITY, |h| (h / farthest).ln_1p());
+    let by_height = limits
+        .highest_mm
+        .map_or(f64::INFINITY, |h| (h / farthest).ln_1p());
     let by_tolerance = limits.tolerance_mm.map_or(f64::INFINITY, |e| {
         let opening = UNSEEN_RAD * nearest / e;
-        if opening < 1.0 { -(-opening).ln_1p() } else { f64::INFINITY }
+        if opening < 1.0 {
+            -(-opening).ln_1p()
+        } else {
+            f64::INFINITY
+        }
     });
     by_height.min(by_tolerance)
 }
@@ -244,7 +256,10 @@ fn tilt(
     face: usize,
     seen: f64,
 ) -> [f64; 3] {
-    let h = target.mesh.normal(face).dot(target.mesh.corners(face)[0] - plane.eye);
+    let h = target
+        .mesh
+        .normal(face)
+        .dot(target.mesh.corners(face)[0] - plane.eye);
     geometry.cotangents[face].map(|cot| seen * h * h * cot / (2.0 * geometry.areas[face]))
 }
 
@@ -303,6 +318,9 @@ fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], de
         length_mm: line[0].distance(line[1]) * depth,
         line,
         crease: a.cross(b).length().atan2(a.dot(b)),
-        highest: pair.map(|p| patches[p as usize].highest).into_iter().fold(f64::INFINITY, f64::min),
+        highest: pair
+            .map(|p| patches[p as usize].highest)
+            .into_iter()
+            .fold(f64::INFINITY, f64::min),
     }
 }

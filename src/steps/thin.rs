@@ -1,7 +1,8 @@
 //! Pieces too thin to print: found on a raster of the image, given to a neighbour.
 //!
 //! A strip between two tears that is narrower than the printer's line would be a fin where it stands out and a slit where it
-//! lies deep. It joins the neighbour that costs least, drawn in to the layer: its normals turn, the strip is gone.
+//! lies deep. It joins the neighbour that costs least, drawn in to the layer: its normals turn, the strip is gone. In the final
+//! program it hardly counts, so that the neighbour does not bend for it.
 
 use super::fusion::{Field, Functional};
 use super::patches::Patches;
@@ -18,7 +19,7 @@ const TEAR_MM: f64 = 0.2;
 /// Merging strips may leave others behind; a third round rarely finds any.
 const ROUNDS: usize = 3;
 
-/// Gives every strip narrower than `narrowest_mm` to a neighbour; the seen area given away, square millimetres.
+/// Gives every strip narrower than `narrowest_mm` to a neighbour; which patches of the support were given away.
 pub fn absorb_thin(
     target: &Target,
     map: &ViewMap,
@@ -26,13 +27,13 @@ pub fn absorb_thin(
     cells: &[u32],
     field: &mut Field,
     narrowest_mm: f64,
-) -> f64 {
-    let patches = functional.patches();
-    if narrowest_mm <= 0.0 || cells.is_empty() {
-        return 0.0;
-    }
-    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.depth);
+) -> Vec<bool> {
     let mut absorbed = vec![false; field.len()];
+    if narrowest_mm <= 0.0 || cells.is_empty() {
+        return absorbed;
+    }
+    let patches = functional.patches();
+    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.depth);
     for _ in 0..ROUNDS {
         let pieces = functional.pieces(field);
         let thin = raster.thin(target, functional, &pieces);
@@ -47,12 +48,7 @@ pub fn absorb_thin(
             break;
         }
     }
-    let first = functional.range().start;
-    let area = |i: usize| patches.patches[first + i].seen_mm2;
-    (0..absorbed.len())
-        .filter(|i| absorbed[*i])
-        .map(area)
-        .sum()
+    absorbed
 }
 
 /// The patch at every pixel of one support's part of the image.
@@ -94,8 +90,18 @@ impl Raster {
     /// Labels the pixels whose centres lie in a triangle.
     fn fill(&mut self, triangle: [DVec2; 3], patch: u32) {
         let local = triangle.map(|q| (q - self.corner) / self.pixel - 0.5);
-        let lo = local[0].min(local[1]).min(local[2]).ceil().as_ivec2().max(IVec2::ZERO);
-        let hi = local[0].max(local[1]).max(local[2]).floor().as_ivec2().min(self.size - 1);
+        let lo = local[0]
+            .min(local[1])
+            .min(local[2])
+            .ceil()
+            .as_ivec2()
+            .max(IVec2::ZERO);
+        let hi = local[0]
+            .max(local[1])
+            .max(local[2])
+            .floor()
+            .as_ivec2()
+            .min(self.size - 1);
         let inside = |p: DVec2| {
             (0..3).all(|k| (local[(k + 1) % 3] - local[k]).perp_dot(p - local[k]) >= 0.0)
         };
@@ -116,8 +122,13 @@ impl Raster {
 
     fn pixels(&self) -> impl Iterator<Item = (IVec2, u32)> {
         let width = self.size.x;
-        let pixel = move |(k, p): (usize, &u32)| (IVec2::new(k as i32 % width, k as i32 / width), *p);
-        self.patch.iter().enumerate().map(pixel).filter(|p| p.1 != u32::MAX)
+        let pixel =
+            move |(k, p): (usize, &u32)| (IVec2::new(k as i32 % width, k as i32 / width), *p);
+        self.patch
+            .iter()
+            .enumerate()
+            .map(pixel)
+            .filter(|p| p.1 != u32::MAX)
     }
 
     /// Whether at least half of a patch's pixels lie where no disc of the narrowest width fits between tears; index: patch
@@ -143,7 +154,8 @@ impl Raster {
         // A disc's centre lies a radius from every torn edge of its own piece, half a pixel beyond the edge pixels.
         let radius = PIXELS / 2.0;
         let reach = radius.ceil() as i32;
-        let disc = || (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |x| IVec2::new(x, y)));
+        let disc =
+            || (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |x| IVec2::new(x, y)));
         let within = |by: &IVec2, r: f64| f64::from(by.length_squared()) <= r * r;
         let near: Vec<IVec2> = disc().filter(|by| within(by, radius - 1.0)).collect();
         let wide: Vec<IVec2> = disc().filter(|by| within(by, radius)).collect();
@@ -163,6 +175,9 @@ impl Raster {
             slot.0 += u32::from(!fits);
             slot.1 += 1;
         }
-        count.iter().map(|(thin, all)| *all > 0 && 2 * thin >= *all).collect()
+        count
+            .iter()
+            .map(|(thin, all)| *all > 0 && 2 * thin >= *all)
+            .collect()
     }
 }

@@ -1,11 +1,12 @@
 //! View pictures and their figures, by identities.
 
 use crate::shapes::{ORANGE, ball, grove, view};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::mesh::TriMesh;
-use pillarforest::render::{Likeness, thumbnail, view_picture};
+use pillarforest::render::{Likeness, camera, thumbnail, view_picture};
 use pillarforest::report::{Report, SolidReport, ViewReport};
+use pillarforest::steps::{StepLine, StepSummary};
 use pillarforest::view::View;
 
 const EYE: DVec3 = DVec3::new(90.0, -40.0, 25.0);
@@ -20,7 +21,7 @@ fn owl() -> View {
 }
 
 fn likeness(view: &View, forest: &TriMesh) -> Likeness {
-    view_picture(view, forest, &Bvh::new(forest), None, 96).0
+    view_picture(view, forest, &Bvh::new(forest), None, None, 96).0
 }
 
 fn about_eye(factor: f64) -> DMat4 {
@@ -139,7 +140,7 @@ fn the_number_of_threads_changes_no_byte() {
             .unwrap();
         pool.install(|| {
             (
-                view_picture(&views[0], &forest, &bvh, Some(&colours), 64),
+                view_picture(&views[0], &forest, &bvh, Some(&colours), None, 64),
                 thumbnail(&forest, &bvh, None, 64),
             )
         })
@@ -152,7 +153,7 @@ fn pictures_show_three_panels_and_thumbnails_a_forest() {
     let (views, forest) = grove_forest();
     let bvh = Bvh::new(&forest);
     let picture =
-        tiny_skia::Pixmap::decode_png(&view_picture(&views[0], &forest, &bvh, None, 100).1)
+        tiny_skia::Pixmap::decode_png(&view_picture(&views[0], &forest, &bvh, None, None, 100).1)
             .unwrap();
     assert!(picture.width() >= 300 && picture.height() >= 100);
     let drawn = |p: &tiny_skia::Pixmap, left: u32, right: u32| {
@@ -186,6 +187,84 @@ fn pictures_show_three_panels_and_thumbnails_a_forest() {
         ))
         .is_ok()
     );
+}
+
+/// A line in the image of the owl's camera, which is 2 wide and 2 high.
+fn step_line(ends: [DVec2; 2], height: f64) -> StepLine {
+    let (plane, half) = camera(&owl());
+    StepLine {
+        ends: ends.map(|q| 3.0 * plane.direction(half * q)),
+        height_mm: [height; 2],
+        parallax: [0.0; 2],
+        length_mm: 1.0,
+    }
+}
+
+/// The owl as a forest of its own, with steps.
+fn torn_owl(lines: &[StepLine]) -> tiny_skia::Pixmap {
+    let forest = &owl().models[0].mesh;
+    let summary = StepSummary {
+        lines: lines.len(),
+        ..StepSummary::default()
+    };
+    let steps = Some((lines, summary));
+    let (_, png) = view_picture(&owl(), forest, &Bvh::new(forest), None, steps, 200);
+    tiny_skia::Pixmap::decode_png(&png).unwrap()
+}
+
+/// Columns and rows of the pixels of the panels, above the captions, that differ.
+fn differing(a: &tiny_skia::Pixmap, b: &tiny_skia::Pixmap) -> Vec<(u32, u32)> {
+    assert_eq!((a.width(), a.height()), (b.width(), b.height()));
+    let places = (0..206).flat_map(|y| (0..a.width()).map(move |x| (x, y)));
+    places
+        .filter(|(x, y)| a.pixel(*x, *y) != b.pixel(*x, *y))
+        .collect()
+}
+
+#[test]
+fn a_step_line_is_drawn_over_the_errors_and_nowhere_else() {
+    // Panels of 200 pixels with gaps of 6: the third begins at 418, and a quarter above its middle is row 81.
+    let across = [DVec2::new(-0.9, 0.25), DVec2::new(0.9, 0.25)];
+    let (none, line) = (torn_owl(&[]), torn_owl(&[step_line(across, 2.0)]));
+    let found = differing(&none, &line);
+    assert!(
+        found
+            .iter()
+            .all(|(x, y)| (427..=609).contains(x) && (80..=81).contains(y)),
+        "{found:?}"
+    );
+    assert!((429..=606).all(|x| found.contains(&(x, 80)) || found.contains(&(x, 81))));
+    // The caption tells how many.
+    assert_ne!(none.data(), line.data());
+}
+
+#[test]
+fn higher_steps_are_darker_and_lines_out_of_the_picture_are_left_out() {
+    let at = |y: f64| [DVec2::new(-0.5, y), DVec2::new(0.5, y)];
+    let none = torn_owl(&[]);
+    let two = torn_owl(&[step_line(at(0.505), 6.0), step_line(at(-0.505), 0.3)]);
+    let light = |row: u32| {
+        let c = two.pixel(518, row).unwrap();
+        u32::from(c.red()) + u32::from(c.green()) + u32::from(c.blue())
+    };
+    let darkest = |rows: std::ops::Range<u32>| rows.map(light).min().unwrap();
+    let (high, low) = (darkest(50..60), darkest(150..160));
+    assert!(high + 150 < low, "{high} {low}");
+    let outside = [
+        step_line(at(1.2), 1.0),
+        step_line([DVec2::ZERO, DVec2::new(0.0, 40.0)], 1.0),
+        step_line([DVec2::splat(f64::NAN); 2], f64::NAN),
+    ];
+    assert_eq!(differing(&none, &torn_owl(&outside)), []);
+}
+
+#[test]
+fn without_steps_only_the_caption_tells_whether_they_were_allowed() {
+    let forest = &owl().models[0].mesh;
+    let (_, png) = view_picture(&owl(), forest, &Bvh::new(forest), None, None, 200);
+    let (never, none) = (tiny_skia::Pixmap::decode_png(&png).unwrap(), torn_owl(&[]));
+    assert_eq!(differing(&never, &none), []);
+    assert_ne!(never.data(), none.data());
 }
 
 #[test]

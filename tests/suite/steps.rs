@@ -184,9 +184,9 @@ fn sheets_keep_their_order_along_contours() {
         }
     }
     assert!(met > 100, "{met} ends of contours");
-    // Orders are linear in log depth within faces: less than a micrometre is left.
+    // Orders are linear in log depth: within faces that bend much, as strips given away do, a little is left.
     assert!(
-        worst < 1e-3,
+        worst < CONTOUR_MM,
         "a front sheet lies {worst} mm behind its back sheet"
     );
 }
