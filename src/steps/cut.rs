@@ -40,12 +40,22 @@ pub struct Cut {
 /// A corner of a patch.
 type Corner = (u32, u8);
 
-/// Cuts where the field's corners stand at least `least_mm` apart; corners nearer than that share a vertex.
+/// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
+/// allowed, or in the wrong order, so that the program has a solution to begin with.
 pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, least_mm: f64) -> Cut {
     let pairs = corner_pairs(target, patches);
     let vertex = |c: Corner| vertex(target, patches, c) as usize;
+    let highest = |(p, _): Corner| patches.patches[p as usize].highest;
+    // Depths in the relief: the nearer corner decides.
+    let printable = |(a, b): (Corner, Corner), near: f64, far: f64| {
+        far.exp() - near.exp() >= CLOSED * least_mm / target.depth[vertex(a)]
+            && far - near <= highest(a).min(highest(b))
+    };
     let mut bundles = Bundles::new(field);
-    bundles.join(&pairs, |c| CLOSED * least_mm / target.depth[vertex(c)]);
+    bundles.join(&pairs, printable);
+    while bundles.join_disordered(patches, &pairs) {
+        bundles.join(&pairs, printable);
+    }
     let (corners, start) = bundles.numbered();
     let mut vertices = vec![0; start.len()];
     for (p, c) in corners.iter().enumerate() {
@@ -60,13 +70,12 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
             (w, v)
         };
         let front = |(p, k): Corner| patches.patches[p as usize].room[k as usize].0.exp();
-        let highest = |c: &Corner| patches.patches[c.0 as usize].highest;
         Step {
             near,
             far,
             // At the layer's front a step must be largest in log depth.
             least: (MARGIN * least_mm / target.depth[vertex(*a)] / front(*a)).ln_1p(),
-            most: highest(a).min(highest(b)),
+            most: highest(*a).min(highest(*b)),
         }
     };
     let mut steps: Vec<Step> = pairs
@@ -161,6 +170,10 @@ fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> u32 {
     target.mesh.faces[patches.patches[p as usize].face as usize][k as usize]
 }
 
+fn index((p, k): Corner) -> u32 {
+    3 * p + u32::from(k)
+}
+
 /// Corners with the mean depth of each bundle.
 struct Bundles {
     sets: DisjointSets,
@@ -181,26 +194,62 @@ impl Bundles {
         sum / count
     }
 
-    /// Joins pairs nearer than `least`, until none is: joining moves means, so that others may come near.
-    fn join(&mut self, pairs: &[(Corner, Corner)], least: impl Fn(Corner) -> f64) {
-        let index = |(p, k): Corner| 3 * p + u32::from(k);
+    /// Joins pairs whose step from near to far is not `printable`, until all are: joining moves means, so that others may come
+    /// near.
+    fn join(
+        &mut self,
+        pairs: &[(Corner, Corner)],
+        printable: impl Fn((Corner, Corner), f64, f64) -> bool,
+    ) {
         loop {
             let mut joined = false;
             for (a, b) in pairs {
-                let (i, j) = (self.sets.root(index(*a)), self.sets.root(index(*b)));
-                // Depths in the relief: the nearer corner decides.
-                let (x, y) = (self.mean(i), self.mean(j));
-                if i != j && (x.max(y).exp() - x.min(y).exp()) < least(*a) {
-                    let (s, t) = (self.sums[i as usize], self.sums[j as usize]);
-                    self.sets.join(i, j);
-                    self.sums[self.sets.root(i) as usize] = (s.0 + t.0, s.1 + t.1);
-                    joined = true;
+                let (x, y) = (self.mean(index(*a)), self.mean(index(*b)));
+                if !printable((*a, *b), x.min(y), x.max(y)) {
+                    joined |= self.put_together(index(*a), index(*b));
                 }
             }
             if !joined {
                 return;
             }
         }
+    }
+
+    /// Joins the common corners of patches whose order along a contour the means have turned round; whether there were any.
+    fn join_disordered(&mut self, patches: &Patches, pairs: &[(Corner, Corner)]) -> bool {
+        let mut joined = false;
+        for seam in &patches.seams {
+            let [i, j] = seam.patches;
+            let mut at = |p: u32, w: &[f64; 3]| -> f64 {
+                (0..3)
+                    .map(|k| w[k as usize] * self.mean(index((p, k))))
+                    .sum()
+            };
+            let wrong = (0..2).any(|end| {
+                let ([v, w], gap) = (&seam.ends[end], seam.gaps[end]);
+                gap != 0.0 && (at(i, v) - at(j, w) - gap) * gap.signum() > 0.0
+            });
+            if wrong {
+                let first = pairs.partition_point(|(a, _)| a.0 < i);
+                let common = pairs[first..].iter().take_while(|(a, _)| a.0 == i);
+                for (a, b) in common.filter(|(_, b)| b.0 == j) {
+                    joined |= self.put_together(index(*a), index(*b));
+                }
+            }
+        }
+        joined
+    }
+
+    /// Joins two corners; whether they were apart.
+    fn put_together(&mut self, a: u32, b: u32) -> bool {
+        let (i, j) = (self.sets.root(a), self.sets.root(b));
+        if i == j {
+            return false;
+        }
+        let (s, t) = (self.sums[i as usize], self.sums[j as usize]);
+        self.sets.join(i, j);
+        self.sums[self.sets.root(i) as usize] = (s.0 + t.0, s.1 + t.1);
+        true
     }
 
     /// The bundle of every patch's corners, and the bundles' means.

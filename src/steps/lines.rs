@@ -50,23 +50,23 @@ pub struct StepSummary {
 }
 
 /// The number of tear lines: pairs of pieces that meet in a step.
-pub fn count(patches: &Patches, field: &Field) -> usize {
+pub fn count(target: &Target, patches: &Patches, field: &Field) -> usize {
     let value = |s: &Seam, k: usize, side: usize| {
         let (w, y) = (&s.ends[k][side], &field[s.patches[side] as usize]);
         (0..3).map(|i| w[i] * y[i]).sum::<f64>()
     };
     let step = |s: &Seam, k: usize| (value(s, k, 0) - value(s, k, 1)).abs() * patches.depth;
-    meetings(patches, |n| {
+    meetings(target, patches, |n| {
         (0..2).any(|k| step(&patches.seams[n], k) > STEP_MM)
     })
     .0
 }
 
 /// Pairs of pieces that meet in a tear, and pieces. Index of `torn`: seam.
-fn meetings(patches: &Patches, torn: impl Fn(usize) -> bool) -> (usize, usize) {
+fn meetings(target: &Target, patches: &Patches, torn: impl Fn(usize) -> bool) -> (usize, usize) {
     let mut sets = DisjointSets::new(patches.patches.len());
     let (open, closed): (Vec<usize>, Vec<usize>) =
-        tears(patches).map(|t| t.0).partition(|n| torn(*n));
+        tears(target, patches).map(|t| t.0).partition(|n| torn(*n));
     for n in closed {
         let [a, b] = patches.seams[n].patches;
         sets.join(a, b);
@@ -82,10 +82,15 @@ fn meetings(patches: &Patches, torn: impl Fn(usize) -> bool) -> (usize, usize) {
     (pairs.len(), sets.numbers().0)
 }
 
-/// Seams that are no contours of the model, with their indices.
-fn tears(patches: &Patches) -> impl Iterator<Item = (usize, &Seam)> {
+/// Seams where the model hangs together, with their indices: no contours, however near their sheets are.
+fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (usize, &'a Seam)> {
+    let face = |p: u32| target.mesh.faces[patches.patches[p as usize].face as usize];
+    let hang_together = move |s: &Seam| {
+        let [a, b] = s.patches.map(face);
+        s.gaps == [0.0; 2] && a.iter().any(|v| b.contains(v))
+    };
     let seams = patches.seams.iter().enumerate();
-    seams.filter(|(_, s)| s.gaps == [0.0; 2])
+    seams.filter(move |(_, s)| hang_together(s))
 }
 
 /// All tear lines of the solved surface, and their figures.
@@ -96,35 +101,50 @@ pub fn lines(
     corners: &[[u32; 3]],
     depths: &Depths,
 ) -> (Vec<StepLine>, StepSummary) {
-    let distance = |p: u32, q: DVec2| {
+    // Distance in the model, and relative depth.
+    let place = |p: u32, q: DVec2| {
         let patch = &patches.patches[p as usize];
         let (Anchor { weights, .. }, z) = anchor(target, patch.face as usize, q);
         let vertices = corners[p as usize];
         let s = Anchor { vertices, weights }.relative_depth(&depths.s);
-        z * s / depths.mu[patch.group as usize] * map.plane.direction(q).length()
+        let ray = map.plane.direction(q).length();
+        (z * ray, s / depths.mu[patch.group as usize])
     };
     let mut lines = Vec::new();
     let mut torn = vec![false; patches.seams.len()];
-    for (n, s) in tears(patches) {
-        let sides = s.line.map(|q| s.patches.map(|p| distance(p, q)));
+    for (n, s) in tears(target, patches) {
+        // What the model's own sheets lie apart, where they count as together, is no step.
+        let sides = s.line.map(|q| {
+            let [(a, s), (b, t)] = s.patches.map(|p| place(p, q));
+            [s, t].map(|s| (a + b) / 2.0 * s)
+        });
         let line = StepLine {
             ends: s.line.map(|q| map.plane.direction(q)),
             height_mm: sides.map(|[a, b]| (a - b).abs()),
             parallax: sides.map(|[a, b]| (1.0 / a - 1.0 / b).abs()),
             length_mm: s.length_mm,
         };
-        if line.height_mm.iter().any(|h| *h > STEP_MM) {
+        let cut = s.patches.map(|p| corners[p as usize]);
+        let whole = is_whole(target, patches, s.patches, cut);
+        if !whole && line.height_mm.iter().any(|h| *h > STEP_MM) {
             torn[n] = true;
             lines.push(line);
         }
     }
-    let (count, pieces) = meetings(patches, |n| torn[n]);
+    let (count, pieces) = meetings(target, patches, |n| torn[n]);
     let summary = StepSummary {
         lines: count,
         pieces,
         ..measured(&lines)
     };
     (lines, summary)
+}
+
+/// Whether two patches share all vertices of the cut mesh that they shared before.
+fn is_whole(target: &Target, patches: &Patches, pair: [u32; 2], cut: [[u32; 3]; 2]) -> bool {
+    let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p as usize].face as usize]);
+    let mut places = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
+    places.all(|(k, l)| a[k] != b[l] || cut[0][k] == cut[1][l])
 }
 
 fn measured(lines: &[StepLine]) -> StepSummary {

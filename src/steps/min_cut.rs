@@ -377,3 +377,6 @@ impl Flow {
         Some(total)
     }
 }
+
+#[cfg(test)]
+pub mod tests;

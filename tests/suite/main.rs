@@ -14,4 +14,5 @@ mod render;
 mod scene;
 mod scenes;
 mod shapes;
+mod steps;
 mod visibility;

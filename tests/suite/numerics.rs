@@ -1,8 +1,8 @@
 //! The mathematics, by identities: solid angles, unbounded and bounded optima, invariance, the contents of layers.
 
-use crate::shapes::{ball, pillar};
+use crate::shapes::{EYE, MIDDLE, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
-use pillarforest::geom::{ImagePlane, barycentric, orient, solid_angle};
+use pillarforest::geom::{barycentric, orient, solid_angle};
 use pillarforest::groups::{Groups, anchor, groups};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
@@ -12,27 +12,17 @@ use pillarforest::mimic::{
 };
 use pillarforest::relief::{Relief, relief};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
-
-const EYE: DVec3 = DVec3::new(0.0, -150.0, 20.0);
-const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 20.0);
+use pillarforest::viewmap::{SupportField, Target, ViewMap};
 
 const NORMAL: Energy = Energy::Normal(NormalOptions {
     weight: FaceWeight::Area,
     ordering: true,
+    reweight: 0,
 });
 const CURVATURE: Energy = Energy::Curvature(CurvatureOptions {
     hidden_weight: 0.1,
     ordering: true,
 });
-
-/// What one eye is to see on which pillars.
-struct Setting {
-    eye: DVec3,
-    look_at: DVec3,
-    model: TriMesh,
-    supports: Vec<Support>,
-}
 
 /// All that the stages up to the relief make of a setting.
 struct Outcome {
@@ -44,35 +34,6 @@ struct Outcome {
 }
 
 impl Setting {
-    fn new(model: TriMesh, supports: Vec<Support>) -> Self {
-        Self {
-            eye: EYE,
-            look_at: MIDDLE,
-            model,
-            supports,
-        }
-    }
-
-    /// A bumpy ball on three pillars at different depths, in a layer much thinner than it.
-    fn tight() -> Self {
-        let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
-        let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::AxisPlane));
-        Self::new(bumpy(12.0), supports.to_vec())
-    }
-
-    /// The same ball inside one huge pillar whose layer takes all of it at any scale from a third to four thirds.
-    fn roomy() -> Self {
-        let layer = Layer {
-            datum: Datum::AxisPlane,
-            front: 110.0,
-            back: 55.0,
-            core: 1.0,
-        };
-        let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::AxisPlane);
-        support.layer = Some(layer);
-        Self::new(bumpy(12.0), vec![support])
-    }
-
     /// Everything moved by a similarity that keeps z upright; `scale` is its factor.
     fn moved(&self, by: DMat4, scale: f64) -> Self {
         let flat = |p: DVec2| by.transform_point3(p.extend(0.0)).truncate();
@@ -113,14 +74,6 @@ impl Setting {
             model: self.model.transformed(by),
             supports: self.supports.iter().map(support).collect(),
         }
-    }
-
-    /// The view map with its target.
-    fn seen(&self) -> (Target, ViewMap) {
-        let plane = ImagePlane::looking_at(self.eye, self.look_at);
-        let target = Target::new(self.model.clone(), &plane).expect("in front of the eye");
-        let map = view_map(plane, &target, &SupportField::new(&self.supports)).expect("a map");
-        (target, map)
     }
 
     fn solved(&self, energy: Energy) -> Outcome {
@@ -168,17 +121,6 @@ impl Outcome {
         });
         excess.fold(f64::MIN, f64::max)
     }
-}
-
-/// A closed ball with waves on it, finer than the pillars and coarser than its faces.
-fn bumpy(radius: f64) -> TriMesh {
-    let mut mesh = ball(MIDDLE, radius, 16);
-    for v in &mut mesh.vertices {
-        let d = *v - MIDDLE;
-        let wave = (0.5 * d.x + 0.3).sin() * (0.6 * d.z).cos() * (0.4 * d.y + 1.0).sin();
-        *v = MIDDLE + d * (1.0 + 0.06 * wave);
-    }
-    mesh
 }
 
 /// Solid angle of all cells with a face.
@@ -561,6 +503,7 @@ fn a_contradiction_names_a_row_of_it() {
     let mut program = Program {
         variables: 2,
         quadratic: quadratic.to_csc(),
+        linear: vec![0.0; 2],
         equalities: Vec::new(),
         rows: vec![
             row(RowKind::Far(0), 0, 1.0, 5.0),

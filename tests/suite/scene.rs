@@ -2,6 +2,7 @@
 
 use pillarforest::diag::{Diagnostic, Place, Warned};
 use pillarforest::scene::{self, Scene};
+use pillarforest::steps::{Prefer, StepLimits, StepOptions};
 use pillarforest::support::{Datum, SupportKind};
 use std::fs;
 use std::path::Path;
@@ -345,6 +346,58 @@ fn set_replaces_and_adds_values() {
     }
     let guess = scene::set(PLAIN, "views[sid].eye=3").unwrap_err();
     assert!(guess.help.iter().any(|h| h.contains("[side]")), "{guess:?}");
+}
+
+#[test]
+fn steps_are_allowed_from_two_pillars_on_unless_the_scene_says_otherwise() {
+    let set = |assignments: &[&str]| {
+        let set =
+            |text: String, a: &&str| scene::set(&text, a).unwrap_or_else(|e| panic!("{a}: {e:?}"));
+        good(&assignments.iter().fold(PLAIN.to_string(), set)).steps
+    };
+    let by_default = set(&[]).expect("64 pillars");
+    assert_eq!(by_default.limits.highest_mm, None);
+    assert_eq!((by_default.limits.least_mm, by_default.most), (0.1, None));
+    assert_eq!(by_default.prefer, Prefer::Tolerance);
+    assert_eq!(set(&["energy=Normal(steps: Allowed())"]), Some(by_default));
+    assert_eq!(set(&["energy=Normal()"]), Some(by_default));
+    assert_eq!(set(&["energy=Normal(steps: Never)"]), None);
+    assert_eq!(set(&["energy=Curvature()"]), None);
+    let two = "pillars[0].places=At([(0, 0), (8, 0)])";
+    let one = "pillars[0].places=At([(0, 0)])";
+    assert_eq!(set(&[two]), Some(by_default));
+    assert_eq!(set(&[one]), None);
+    assert_eq!(
+        set(&[one, "energy=Normal(steps: Allowed())"]),
+        Some(by_default)
+    );
+    let finer = set(&["printer.nozzle=0.25"]).expect("steps");
+    assert_eq!((by_default.narrowest_mm, finer.narrowest_mm), (0.4, 0.25));
+}
+
+#[test]
+fn limits_of_steps_follow_the_units() {
+    let options = "Allowed(least: 0.02, highest: 0.3, tolerance: 4, most: 7, price: 5, narrowest: 0.06, prefer: Camouflage)";
+    let text = PLAIN
+        .replace("units: mm", "units: cm")
+        .replace("00,", "0,")
+        .replace("300)", "30)")
+        .replace(
+            "    base:",
+            &format!("    energy: Normal(steps: {options}),\n    base:"),
+        );
+    let wanted = StepOptions {
+        limits: StepLimits {
+            least_mm: 0.2,
+            highest_mm: Some(3.0),
+            tolerance_mm: Some(40.0),
+        },
+        most: Some(7),
+        price: 5.0,
+        narrowest_mm: 0.6,
+        prefer: Prefer::Camouflage,
+    };
+    assert_eq!(good(&text).steps, Some(wanted));
 }
 
 #[test]

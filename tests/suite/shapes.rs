@@ -1,14 +1,19 @@
 //! Small bodies and forests for tests of several subjects.
 
 use glam::{DMat4, DVec2, DVec3};
+use pillarforest::geom::ImagePlane;
 use pillarforest::mesh::TriMesh;
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::view::{PlacedModel, View};
+use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
 use std::f64::consts::TAU;
 
 pub const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
 pub const BLUE: [u8; 3] = [0x56, 0xB4, 0xE9];
 pub const GREEN: [u8; 3] = [0x00, 0x9E, 0x73];
+
+pub const EYE: DVec3 = DVec3::new(0.0, -150.0, 20.0);
+pub const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 20.0);
 
 /// Faces of a box whose corner `k` lies at the bits of `k`: x, y, z.
 pub const CUBE_FACES: [[u32; 3]; 12] = [
@@ -174,4 +179,67 @@ pub fn grove() -> (Vec<View>, Vec<Support>) {
         .collect();
     supports.push(base(ring(DVec2::ZERO, 32.0, 96)));
     (views, supports)
+}
+
+/// What one eye is to see on which pillars.
+pub struct Setting {
+    pub eye: DVec3,
+    pub look_at: DVec3,
+    pub model: TriMesh,
+    pub supports: Vec<Support>,
+}
+
+impl Setting {
+    pub fn new(model: TriMesh, supports: Vec<Support>) -> Self {
+        Self {
+            eye: EYE,
+            look_at: MIDDLE,
+            model,
+            supports,
+        }
+    }
+
+    /// A bumpy ball on three pillars at different depths, in a layer much thinner than it.
+    pub fn tight() -> Self {
+        let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
+        let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::AxisPlane));
+        Self::new(bumpy(12.0), supports.to_vec())
+    }
+
+    /// The same ball inside one huge pillar whose layer takes all of it at any scale from a third to four thirds.
+    pub fn roomy() -> Self {
+        let layer = Layer {
+            datum: Datum::AxisPlane,
+            front: 110.0,
+            back: 55.0,
+            core: 1.0,
+        };
+        let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::AxisPlane);
+        support.layer = Some(layer);
+        Self::new(bumpy(12.0), vec![support])
+    }
+
+    /// The view map with its target.
+    pub fn seen(&self) -> (Target, ViewMap) {
+        let plane = ImagePlane::looking_at(self.eye, self.look_at);
+        let target = Target::new(self.model.clone(), &plane).expect("in front of the eye");
+        let map = view_map(plane, &target, &SupportField::new(&self.supports)).expect("a map");
+        (target, map)
+    }
+}
+
+/// A closed ball with waves on it, finer than the pillars and coarser than its faces.
+pub fn bumpy(radius: f64) -> TriMesh {
+    wavy(radius, 0.06)
+}
+
+/// A closed ball with waves of a share of its radius.
+pub fn wavy(radius: f64, share: f64) -> TriMesh {
+    let mut mesh = ball(MIDDLE, radius, 16);
+    for v in &mut mesh.vertices {
+        let d = *v - MIDDLE;
+        let wave = (0.5 * d.x + 0.3).sin() * (0.6 * d.z).cos() * (0.4 * d.y + 1.0).sin();
+        *v = MIDDLE + d * (1.0 + share * wave);
+    }
+    mesh
 }
