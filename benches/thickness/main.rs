@@ -45,7 +45,7 @@ const SUBJECTS: [Subject; 2] = [
     },
     Subject {
         scene: "plate",
-        title: "Plate: a hare, whole",
+        title: "Plate: one hare on 90 x 84 mm",
         bundled: true,
     },
 ];
@@ -53,8 +53,6 @@ const SUBJECTS: [Subject; 2] = [
 /// A kind of surface.
 struct Surface {
     name: &'static str,
-    /// In words, for the README's table.
-    words: &'static str,
     /// As the scene language writes it.
     energy: &'static str,
     /// sRGB of its line: Okabe & Ito's palette.
@@ -64,25 +62,21 @@ struct Surface {
 const SURFACES: [Surface; 4] = [
     Surface {
         name: "curvature",
-        words: "the paper's `Curvature()`",
         energy: "Curvature()",
         colour: [0x6F, 0x73, 0x78],
     },
     Surface {
         name: "normal",
-        words: "`Normal(steps: Never)`",
         energy: "Normal(steps: Never)",
         colour: [0x00, 0x9E, 0x73],
     },
     Surface {
         name: "reweighted",
-        words: "`Normal(steps: Never, reweight: 5)`",
         energy: "Normal(steps: Never, reweight: 5)",
         colour: [0x00, 0x72, 0xB2],
     },
     Surface {
         name: "torn",
-        words: "`Normal(steps: Allowed())`",
         energy: "Normal(steps: Allowed())",
         colour: [0xD5, 0x5E, 0x00],
     },
@@ -192,21 +186,27 @@ fn measure_views(
     rows: &mut Rows,
 ) -> Result<(), String> {
     for (view, seen) in scene.views.iter().zip(seen) {
-        let what = format!("{} {} {mm} mm {}", subject.scene, surface.name, view.name);
+        let mut row = Row {
+            scene: subject.scene.into(),
+            surface: surface.name.into(),
+            mm,
+            view: view.name.clone(),
+            errors: [f64::NAN; 3],
+        };
         match measure::errors(scene, view, seen) {
             Ok(errors) => {
-                let row = Row {
-                    scene: subject.scene.into(),
-                    surface: surface.name.into(),
-                    mm,
-                    view: view.name.clone(),
-                    errors,
-                };
+                row.errors = errors;
                 println!("{row}");
                 rows.put(row, scene.views.len())?;
             }
-            // No such surface exists in this layer: the table has a dash.
-            Err(why) => eprintln!("{what}: {why}"),
+            // No such surface was found in this layer: the table has a dash.
+            Err(why) => {
+                println!(
+                    "| {} | {} | {mm} | {} | {why} | - | - |",
+                    row.scene, row.surface, row.view
+                );
+                rows.drop(&row)?;
+            }
         }
     }
     if let Some([mean, median, p90]) = rows.average(subject.scene, surface.name, mm) {

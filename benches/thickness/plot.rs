@@ -17,7 +17,7 @@ const TOP: f64 = 120.0;
 const BOTTOM: f64 = 520.0;
 
 /// Errors that may have a line across, degrees.
-const TICKS: [f64; 9] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 90.0];
+const TICKS: [f64; 9] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 50.0];
 
 const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
 const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);

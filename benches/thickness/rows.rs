@@ -19,6 +19,12 @@ pub struct Row {
     pub errors: Errors,
 }
 
+impl Row {
+    fn key(&self) -> (&str, &str, f64, &str) {
+        (&self.scene, &self.surface, self.mm, &self.view)
+    }
+}
+
 /// A line of a Markdown table.
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -60,29 +66,34 @@ impl Rows {
 
     /// Adds a row in place of an earlier one, and saves all.
     pub fn put(&mut self, row: Row, views: usize) -> Result<(), String> {
-        let key = |r: &Row| {
-            (
-                r.scene.clone(),
-                r.surface.clone(),
-                r.mm.to_string(),
-                r.view.clone(),
-            )
-        };
-        match self.rows.iter_mut().find(|(r, _)| key(r) == key(&row)) {
-            Some(place) => *place = (row, views),
-            None => self.rows.push((row, views)),
-        }
+        self.forget(&row);
+        self.rows.push((row, views));
         self.rows.sort_by_key(|(r, _)| {
             let scene = SUBJECTS.iter().position(|s| s.scene == r.scene);
             let surface = SURFACES.iter().position(|s| s.name == r.surface);
-            (scene, surface, THICKNESSES.iter().position(|t| *t == r.mm))
+            let mm = THICKNESSES.iter().position(|t| *t == r.mm);
+            (scene, surface, mm, r.view.clone())
         });
+        self.save()
+    }
+
+    /// Takes a row out that holds no longer, and saves the others.
+    pub fn drop(&mut self, row: &Row) -> Result<(), String> {
+        self.forget(row);
+        self.save()
+    }
+
+    fn forget(&mut self, row: &Row) {
+        self.rows.retain(|(r, _)| r.key() != row.key());
+    }
+
+    fn save(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
         };
         let lines = self.rows.iter().map(|(r, views)| {
             let [mean, median, p90] = r.errors;
-            let (scene, surface, mm, view) = (&r.scene, &r.surface, r.mm, &r.view);
+            let (scene, surface, mm, view) = r.key();
             format!("{scene},{surface},{mm},{view},{views},{mean:.4},{median:.4},{p90:.4}\n")
         });
         let text = format!("{HEAD}\n{}", lines.collect::<String>());
@@ -124,7 +135,8 @@ impl Rows {
                     None => " - |".to_owned(),
                 };
                 let figures: String = THICKNESSES.iter().map(figure).collect();
-                text += &format!("| {} | {} |{figures}\n", subject.scene, surface.words);
+                let (scene, name, energy) = (subject.scene, surface.name, surface.energy);
+                text += &format!("| {scene} | {name}: `{energy}` |{figures}\n");
             }
         }
         text
