@@ -94,3 +94,36 @@ fn the_table_of_errors_is_that_of_the_golden_builds() {
     }
     assert!(count >= 5, "{count}");
 }
+
+#[test]
+fn the_table_of_thicknesses_is_that_of_the_saved_rows() {
+    let readme = text("README.md");
+    let rows = text("benches/thickness/rows.csv");
+    let rows: Vec<Vec<&str>> = rows.lines().map(|l| l.split(',').collect()).collect();
+    let table = readme
+        .lines()
+        .filter(|l| l.starts_with("| ") && l.contains(": `"));
+    let mut count = 0;
+    for line in table {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let (surface, _) = cells[1].split_once(": `").unwrap();
+        for (mm, cell) in ["1", "2", "4", "7", "12"].iter().zip(&cells[2..]) {
+            let of = |r: &&Vec<&str>| r[..3] == [cells[0], surface, mm];
+            let views: Vec<&Vec<&str>> = rows.iter().filter(of).collect();
+            let complete = views
+                .first()
+                .is_some_and(|r| r[4] == views.len().to_string());
+            let sum: f64 = views.iter().map(|r| r[5].parse::<f64>().unwrap()).sum();
+            let mean = sum / views.len() as f64;
+            match cell.parse::<f64>() {
+                Ok(found) => assert!(
+                    complete && (found - mean).abs() < 0.0501,
+                    "{line}: {mm} mm: {mean}"
+                ),
+                Err(_) => assert!(*cell == "-" && !complete, "{line}: {mm} mm: {mean}"),
+            }
+            count += 1;
+        }
+    }
+    assert_eq!(count, 40);
+}

@@ -66,10 +66,12 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
 fn built(name: &str) -> &'static Built {
     static MINIMAL: OnceLock<Built> = OnceLock::new();
     static FOUR: OnceLock<Built> = OnceLock::new();
+    static PLATE: OnceLock<Built> = OnceLock::new();
     static REFERENCE: OnceLock<Built> = OnceLock::new();
     let slot = match name {
         "minimal" => &MINIMAL,
         "four-creatures" => &FOUR,
+        "plate" => &PLATE,
         "reference-forest" => &REFERENCE,
         _ => panic!("{name} is new: give it a place here and figures under tests/golden"),
     };
