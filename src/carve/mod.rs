@@ -12,7 +12,7 @@ mod brace;
 mod hollow;
 
 use crate::groups::Groups;
-use crate::mesh::{Defect, Solid, mend};
+use crate::mesh::{Defect, Solid, mend, without_cavities};
 use crate::relief::{Relief, block};
 use crate::support::Support;
 use crate::viewmap::ViewMap;
@@ -225,7 +225,7 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
 fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
     for tolerance in [1e-4, 0.0, 5e-4] {
-        match Solid::new(mend(&solid.simplified(tolerance))) {
+        match Solid::new(without_cavities(mend(&solid.simplified(tolerance)))) {
             Ok(solid) => return Ok(solid),
             Err(d) => defects = d,
         }

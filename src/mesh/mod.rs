@@ -17,6 +17,7 @@ pub use defects::{Defect, DefectKind, check};
 pub use gate::gate;
 pub use intersect::self_intersections;
 pub use mend::mend;
+pub use shells::without_cavities;
 pub use solid::Solid;
 pub use topology::{DisjointSets, Edges, face_components, face_neighbours, vertex_parts};
 pub use weld::{snap_to_f32, weld};

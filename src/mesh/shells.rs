@@ -7,6 +7,7 @@ use crate::mesh::TriMesh;
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::mesh::intersect::{turn2, turn3};
 use crate::mesh::topology::face_components;
+use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -34,6 +35,13 @@ const MAX_PLACED: usize = 20_000;
 /// The shells by rising first face.
 pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
     let component = face_components(mesh);
+    let mut shells = volumes(mesh, &component);
+    place(mesh, &component, &mut shells);
+    shells
+}
+
+/// The shells with their volumes.
+fn volumes(mesh: &TriMesh, component: &[u32]) -> Vec<Shell> {
     let mut shells: Vec<Shell> = Vec::new();
     for (face, &c) in component.iter().enumerate() {
         if c as usize == shells.len() {
@@ -48,8 +56,13 @@ pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
         let [p, q, r] = mesh.corners(face).map(|v| v - origin);
         shells[c as usize].volume += p.dot(q.cross(r)) / 6.0;
     }
+    shells
+}
+
+/// Finds how the shells lie in one another.
+fn place(mesh: &TriMesh, component: &[u32], shells: &mut [Shell]) {
     if shells.len() > MAX_PLACED {
-        for shell in &mut shells {
+        for shell in shells {
             shell.winding = i32::from(shell.volume < 0.0);
         }
     } else if shells.len() > 1 {
@@ -62,7 +75,22 @@ pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
             shell.winding = winding(mesh, &tree, point, |face| component[face] != own as u32);
         });
     }
-    shells
+}
+
+/// The mesh without shells that face inwards: hollows nobody can see or empty are filled.
+pub fn without_cavities(mut mesh: TriMesh) -> TriMesh {
+    let component = face_components(&mesh);
+    let hollow: Vec<bool> = volumes(&mesh, &component)
+        .iter()
+        .map(|s| s.volume < 0.0)
+        .collect();
+    if hollow.contains(&true) {
+        let mut component = component.iter();
+        mesh.faces
+            .retain(|_| component.next().is_some_and(|c| !hollow[*c as usize]));
+        drop_unreferenced(&mut mesh);
+    }
+    mesh
 }
 
 /// How often the faces that `count` selects go round the point: the exits less the entries of its ray along +x.
