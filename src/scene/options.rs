@@ -86,10 +86,9 @@ fn step_options(reader: &mut Reader, raw: &RawStepOptions, default: StepOptions)
         tolerance_mm: length(&raw.tolerance, "tolerance", 0.01),
     };
     let narrowest_mm = length(&raw.narrowest, "narrowest", 0.0).unwrap_or(default.narrowest_mm);
-    if let Some((h, (_, span))) = limits.highest_mm.zip(reader.given(&raw.highest)) {
-        if h < 2.0 * limits.least_mm {
-            reader.error(&span, format!("`highest` is {h} mm, but the least step is {} mm: no step could be printed between them", limits.least_mm));
-        }
+    let given = limits.highest_mm.zip(reader.given(&raw.highest));
+    if let Some((h, (_, span))) = given.filter(|(h, _)| *h < 2.0 * limits.least_mm) {
+        reader.error(&span, format!("`highest` is {h} mm, but the least step is {} mm: no step could be printed between them", limits.least_mm));
     }
     let price = reader.number(&raw.price, "price");
     if let Some((value, span)) = price.as_ref().filter(|(v, _)| !(0.01..=1e6).contains(v)) {

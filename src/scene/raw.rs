@@ -147,12 +147,14 @@ pub enum RawDatum {
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per scene
 pub enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per scene
 pub enum RawSteps {
     Never,
     Allowed(RawStepOptions),

@@ -142,8 +142,11 @@ impl Patches {
     }
 }
 
-/// Patches as `(support, group, face)`, rising, and the patch of every cell.
-fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<(u32, u32, u32)>, Vec<Option<u32>>) {
+/// Support, group and face of a patch.
+type Key = (u32, u32, u32);
+
+/// The keys of all patches, rising, and the patch of every cell.
+fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<Key>, Vec<Option<u32>>) {
     let key = |c: usize| {
         let group = groups.of_cell[c]?;
         Some((
@@ -152,7 +155,7 @@ fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<(u32, u32, u32)>, Vec<Option
             map.cells[c].face?,
         ))
     };
-    let mut keys: Vec<(u32, u32, u32)> = (0..map.cells.len()).filter_map(key).collect();
+    let mut keys: Vec<Key> = (0..map.cells.len()).filter_map(key).collect();
     keys.sort_unstable();
     keys.dedup();
     let find = |c| Some(keys.binary_search(&key(c)?).ok()? as u32);
