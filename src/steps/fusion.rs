@@ -6,9 +6,10 @@ use crate::mesh::DisjointSets;
 
 /// Log depths nearer than this are the same: a millionth of a millimetre.
 const SAME: f64 = 1e-8;
-/// Levels of constant depth tried within one layer's width. At 6 lines get 8 % longer, beyond 16 nothing is gained.
+/// Levels of constant depth tried within one layer's width. At 4 the lines of the reference forest are 5 to 8 % longer, at 24 they
+/// are 1 to 5 % shorter for four times the work.
 const LEVELS: f64 = 12.0;
-/// Sweeps over all levels. Nearly everything happens in the first; the third rarely changes anything.
+/// Sweeps over all levels at most. Nearly everything happens in the first two; after the fourth nothing was seen to change.
 const SWEEPS: usize = 8;
 /// A level may lie outside what a patch allows by this share of the layer; corners are then drawn in and the patch tilts.
 const DRAWN_IN: f64 = 0.15;

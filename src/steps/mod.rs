@@ -34,8 +34,8 @@
 //!    patches that the layer allows it for (drawn in to the layer at its rim); which of them take it is a minimum cut, because
 //!    the cost of a jump is a metric. No other choice of patches lowers the functional more. Levels are swept until none
 //!    helps. Constants suffice: in a layer much thinner than the model, tears are decided by where it leaves the layer, and
-//!    tilting saves little. The sweeps begin with the model pressed into the
-//!    layer, not with the layer's middle, where sheets that meet along contours are in each other's way.
+//!    tilting saves little. The sweeps begin with the model pressed into the layer, not with the layer's middle, where sheets
+//!    that meet along contours are in each other's way.
 //! 2. Strips between tears too narrow for the printer go to a neighbour (`thin`).
 //! 3. The mesh is cut along the tears and [`mimic`](crate::mimic) solves the exact quadratic program on it, with the height
 //!    and direction of every step as rows.

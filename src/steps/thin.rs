@@ -10,7 +10,7 @@ use crate::groups::anchor;
 use crate::viewmap::{Target, ViewMap};
 use glam::{DVec2, IVec2};
 
-/// Pixels across the narrowest printable strip. With 4 strips a quarter too narrow pass, beyond 8 only time is lost.
+/// Pixels across the narrowest printable strip: strips are told apart to a sixth of it.
 const PIXELS: f64 = 6.0;
 /// Rasters larger than this are made coarser: 16 million pixels.
 const MOST_PIXELS: f64 = 16e6;
