@@ -217,7 +217,7 @@ fn other_sections() -> Vec<Section> {
             field("steps", "Never | Allowed(...)", "Allowed() with two pillars or more", "whether the surface may be torn along the eye's rays, where it does not see it"),
             field("weight", "Area | SolidAngle", weight(), "how much a face counts: its area, or what the eye sees of it"),
             field("ordering", "true | false", defaults::NORMAL.ordering, "what lies in front stays in front"),
-            field("reweight", "count", defaults::NORMAL.reweight, "without steps: rounds that gather the error in few faces, 0 to 20"),
+            field("reweight", "count", defaults::NORMAL.reweight, "rounds that gather what error is left in few faces, 0 to 20"),
         ]),
         section("Allowed(...)", "Steps: the surface may fall into pieces at different depths. In the report: `steps`.", vec![
             field("least", "length", format!("{} mm", steps.limits.least_mm), "lowest step; where pieces are nearer they stay joined"),
