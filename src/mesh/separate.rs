@@ -70,9 +70,7 @@ impl Neighbourhood {
             .collect();
         let meets = |f: &usize| {
             let own = Box3::of_face(mesh, *f);
-            trouble
-                .iter()
-                .any(|t| own.lo.cmple(t.hi).all() && own.hi.cmpge(t.lo).all())
+            trouble.iter().any(|t| own.overlaps(t))
         };
         let faces: Vec<[u32; 3]> = (0..mesh.faces.len())
             .filter(meets)

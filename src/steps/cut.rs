@@ -45,11 +45,10 @@ type Corner = (u32, u8);
 pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, least_mm: f64) -> Cut {
     let pairs = corner_pairs(target, patches);
     let vertex = |c: Corner| vertex(target, patches, c) as usize;
-    let highest = |(p, _): Corner| patches.patches[p as usize].highest;
     // Depths in the relief: the nearer corner decides.
     let printable = |(a, b): (Corner, Corner), near: f64, far: f64| {
         far.exp() - near.exp() >= CLOSED * least_mm / target.depth[vertex(a)]
-            && far - near <= highest(a).min(highest(b))
+            && far - near <= highest(patches, a, b)
     };
     let mut bundles = Bundles::new(field);
     bundles.join(&pairs, printable);
@@ -61,33 +60,7 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
     for (p, c) in corners.iter().enumerate() {
         (0..3).for_each(|k| vertices[c[k] as usize] = vertex((p as u32, k as u8)) as u32);
     }
-    let at = |(p, k): Corner| corners[p as usize][k as usize];
-    let step = |(a, b): &(Corner, Corner)| {
-        let (v, w) = (at(*a), at(*b));
-        let (near, far) = if start[v as usize] < start[w as usize] {
-            (v, w)
-        } else {
-            (w, v)
-        };
-        let front = |(p, k): Corner| patches.patches[p as usize].room[k as usize].0.exp();
-        Step {
-            near,
-            far,
-            // At the layer's front a step must be largest in log depth.
-            least: (MARGIN * least_mm / target.depth[vertex(*a)] / front(*a)).ln_1p(),
-            most: highest(*a).min(highest(*b)),
-        }
-    };
-    let mut steps: Vec<Step> = pairs
-        .iter()
-        .filter(|(a, b)| at(*a) != at(*b))
-        .map(step)
-        .collect();
-    steps.sort_by(|s, t| {
-        let key = |s: &Step| (s.near, s.far);
-        key(s).cmp(&key(t)).then(s.most.total_cmp(&t.most))
-    });
-    steps.dedup_by_key(|s| (s.near, s.far));
+    let steps = steps_between(target, patches, &pairs, &corners, &start, least_mm);
     let mesh = TriMesh {
         vertices: vertices
             .iter()
@@ -132,18 +105,15 @@ impl Cut {
             }
         };
         for seam in &patches.seams {
-            for [a, b] in seam.ends {
-                let [i, j] = seam.patches;
-                let y = |p: u32, w: [f64; 3]| {
-                    let c = self.corners[p as usize];
-                    (0..3)
-                        .map(|k| w[k] * self.start[c[k] as usize])
-                        .sum::<f64>()
-                };
-                let first_is_near = y(i, a) < y(j, b);
+            let [i, j] = seam.patches;
+            let [first, second] = seam
+                .patches
+                .map(|p| self.corners[p as usize].map(|v| self.start[v as usize]));
+            for (end, [a, b]) in seam.ends.iter().enumerate() {
+                let first_is_near = seam.jump(end, &first, &second) < 0.0;
                 let force = sign * seam.length_mm / 2.0 * if first_is_near { 1.0 } else { -1.0 };
-                pull(i, &a, force);
-                pull(j, &b, -force);
+                pull(i, a, force);
+                pull(j, b, -force);
             }
         }
         for rim in &patches.rims {
@@ -164,6 +134,50 @@ impl Cut {
                 .collect(),
         }
     }
+}
+
+/// The steps between bundles that were not joined, rising by vertices.
+fn steps_between(
+    target: &Target,
+    patches: &Patches,
+    pairs: &[(Corner, Corner)],
+    corners: &[[u32; 3]],
+    start: &[f64],
+    least_mm: f64,
+) -> Vec<Step> {
+    let at = |(p, k): Corner| corners[p as usize][k as usize];
+    let step = |(a, b): &(Corner, Corner)| {
+        let (v, w) = (at(*a), at(*b));
+        let (near, far) = if start[v as usize] < start[w as usize] {
+            (v, w)
+        } else {
+            (w, v)
+        };
+        let (p, k) = *a;
+        // At the layer's front a step must be largest in log depth.
+        let front = patches.patches[p as usize].room[k as usize].0.exp();
+        let z = target.depth[vertex(target, patches, *a) as usize];
+        Step {
+            near,
+            far,
+            least: (MARGIN * least_mm / z / front).ln_1p(),
+            most: highest(patches, *a, *b),
+        }
+    };
+    let apart = pairs.iter().filter(|(a, b)| at(*a) != at(*b));
+    let mut steps: Vec<Step> = apart.map(step).collect();
+    steps.sort_by(|s, t| {
+        let key = |s: &Step| (s.near, s.far);
+        key(s).cmp(&key(t)).then(s.most.total_cmp(&t.most))
+    });
+    steps.dedup_by_key(|s| (s.near, s.far));
+    steps
+}
+
+/// The highest step allowed between two corners, log depth.
+fn highest(patches: &Patches, a: Corner, b: Corner) -> f64 {
+    let of = |(p, _): Corner| patches.patches[p as usize].highest;
+    of(a).min(of(b))
 }
 
 fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> u32 {
@@ -220,14 +234,10 @@ impl Bundles {
         let mut joined = false;
         for seam in &patches.seams {
             let [i, j] = seam.patches;
-            let mut at = |p: u32, w: &[f64; 3]| -> f64 {
-                (0..3)
-                    .map(|k| w[k as usize] * self.mean(index((p, k))))
-                    .sum()
-            };
+            let [first, second] = [i, j].map(|p| [0, 1, 2].map(|k| self.mean(index((p, k)))));
             let wrong = (0..2).any(|end| {
-                let ([v, w], gap) = (&seam.ends[end], seam.gaps[end]);
-                gap != 0.0 && (at(i, v) - at(j, w) - gap) * gap.signum() > 0.0
+                let gap = seam.gaps[end];
+                gap != 0.0 && (seam.jump(end, &first, &second) - gap) * gap.signum() > 0.0
             });
             if wrong {
                 let first = pairs.partition_point(|(a, _)| a.0 < i);

@@ -1,7 +1,7 @@
 //! The tear functional and its descent by fusion moves.
 
 use super::min_cut::BinaryEnergy;
-use super::patches::{Patch, Patches, Seam};
+use super::patches::{Patch, Patches, Seam, mixed};
 use crate::mesh::DisjointSets;
 
 /// Log depths nearer than this are the same: a millionth of a millimetre.
@@ -73,10 +73,6 @@ pub struct Functional<'a> {
     starts: Vec<u32>,
 }
 
-fn dot(w: &[f64; 3], y: &[f64; 3]) -> f64 {
-    w[0] * y[0] + w[1] * y[1] + w[2] * y[2]
-}
-
 impl<'a> Functional<'a> {
     /// `range` must hold all patches of a support: seams lead nowhere else.
     pub fn new(patches: &'a Patches, prices: Prices, range: std::ops::Range<usize>) -> Self {
@@ -123,10 +119,7 @@ impl<'a> Functional<'a> {
     /// Whether the patches of a seam hang together along all of it.
     fn closed(&self, s: &Seam, field: &Field) -> bool {
         let [a, b] = self.local(s);
-        (0..2).all(|k| {
-            let [w, v] = &s.ends[k];
-            s.gaps[k] == 0.0 && (dot(w, &field[a]) - dot(v, &field[b])).abs() <= SAME
-        })
+        s.hangs_together() && (0..2).all(|k| s.jump(k, &field[a], &field[b]).abs() <= SAME)
     }
 
     /// The piece of every patch: those that hang together.
@@ -166,7 +159,7 @@ impl<'a> Functional<'a> {
             .iter()
             .flat_map(|i| self.incident(*i as usize))
             .map(|n| &self.seams[*n as usize])
-            .filter(|s| s.gaps == [0.0; 2])
+            .filter(|s| s.hangs_together())
             .flat_map(|s| self.local(s))
             .filter(|j| !but[*j])
             .map(|j| field[j].iter().sum::<f64>() / 3.0)
@@ -177,8 +170,7 @@ impl<'a> Functional<'a> {
         let old: Vec<[f64; 3]> = region.iter().map(|i| field[*i as usize]).collect();
         let set = |field: &mut Field, level: f64| {
             for i in region {
-                let room = self.patch(*i as usize).room;
-                field[*i as usize] = room.map(|(lo, hi)| level.clamp(lo, hi));
+                field[*i as usize] = self.patch(*i as usize).drawn_in(level);
             }
         };
         let mut best: Option<(f64, f64)> = None;
@@ -217,7 +209,7 @@ impl<'a> Functional<'a> {
             .points
             .iter()
             .map(|b| {
-                let v = dot(&b.weights, y);
+                let v = mixed(&b.weights, y);
                 (v - b.upper).max(b.lower - v).max(0.0)
             })
             .fold(0.0, f64::max);
@@ -234,8 +226,7 @@ impl<'a> Functional<'a> {
         let off = 1.0 - self.prices.crease * (s.crease / std::f64::consts::FRAC_PI_2).min(1.0);
         let highest = s.highest;
         let end = |k: usize| {
-            let [w, v] = &s.ends[k];
-            let (step, gap) = (dot(w, a) - dot(v, b), s.gaps[k]);
+            let (step, gap) = (s.jump(k, a, b), s.gaps[k]);
             if gap != 0.0 {
                 let wrong = self.prices.ordered && (step - gap) * gap.signum() > SAME;
                 return if wrong { DISORDER } else { 0.0 };
@@ -404,11 +395,7 @@ impl<'a> Functional<'a> {
             for (k, members) in levels.iter_mut().enumerate().take(last + 1).skip(first) {
                 let level = lo + spacing * k as f64;
                 let even = p.even.0 <= level && level <= p.even.1;
-                let y = if even {
-                    [level; 3]
-                } else {
-                    p.room.map(|(lo, hi)| level.clamp(lo, hi))
-                };
+                let y = if even { [level; 3] } else { p.drawn_in(level) };
                 members.push((i as u32, y));
             }
         }
@@ -417,7 +404,7 @@ impl<'a> Functional<'a> {
 
     /// Sweeps all levels over the field until nothing changes. A level is tried again only if something changed within its
     /// reach since it was last tried.
-    pub fn descend(&self, field: &mut Field) -> usize {
+    pub fn descend(&self, field: &mut Field) {
         let levels = self.levels();
         let mut variable = vec![u32::MAX; self.range.len()];
         // The move at which each patch last changed, and at which each level was last tried.
@@ -444,10 +431,9 @@ impl<'a> Functional<'a> {
                 changed.iter().for_each(|i| changed_at[*i as usize] = now);
             }
             if !any {
-                return sweep;
+                return;
             }
         }
-        SWEEPS
     }
 }
 

@@ -51,11 +51,10 @@ pub struct StepSummary {
 
 /// The number of tear lines: pairs of pieces that meet in a step.
 pub fn count(target: &Target, patches: &Patches, field: &Field) -> usize {
-    let value = |s: &Seam, k: usize, side: usize| {
-        let (w, y) = (&s.ends[k][side], &field[s.patches[side] as usize]);
-        (0..3).map(|i| w[i] * y[i]).sum::<f64>()
+    let step = |s: &Seam, end: usize| {
+        let [a, b] = s.patches.map(|p| &field[p as usize]);
+        s.jump(end, a, b).abs() * patches.depth
     };
-    let step = |s: &Seam, k: usize| (value(s, k, 0) - value(s, k, 1)).abs() * patches.depth;
     meetings(target, patches, |n| {
         (0..2).any(|k| step(&patches.seams[n], k) > STEP_MM)
     })
@@ -87,7 +86,7 @@ fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (
     let face = |p: u32| target.mesh.faces[patches.patches[p as usize].face as usize];
     let hang_together = move |s: &Seam| {
         let [a, b] = s.patches.map(face);
-        s.gaps == [0.0; 2] && a.iter().any(|v| b.contains(v))
+        s.hangs_together() && a.iter().any(|v| b.contains(v))
     };
     let seams = patches.seams.iter().enumerate();
     seams.filter(move |(_, s)| hang_together(s))

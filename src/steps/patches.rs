@@ -66,6 +66,31 @@ pub struct Rim {
     pub length_mm: f64,
 }
 
+impl Patch {
+    /// The constant `level`, drawn in to the layer at the corners.
+    pub fn drawn_in(&self, level: f64) -> [f64; 3] {
+        self.room.map(|(lo, hi)| level.clamp(lo, hi))
+    }
+}
+
+impl Seam {
+    /// Whether the model itself hangs together along all of it: no contour.
+    pub fn hangs_together(&self) -> bool {
+        self.gaps == [0.0; 2]
+    }
+
+    /// The jump at one end from the second patch to the first, whose corners are given.
+    pub fn jump(&self, end: usize, first: &[f64; 3], second: &[f64; 3]) -> f64 {
+        let [w, v] = &self.ends[end];
+        mixed(w, first) - mixed(v, second)
+    }
+}
+
+/// The weighted sum of a patch's corners.
+pub fn mixed(weights: &[f64; 3], corners: &[f64; 3]) -> f64 {
+    (0..3).map(|k| weights[k] * corners[k]).sum()
+}
+
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Patches {
