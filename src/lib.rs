@@ -59,6 +59,8 @@ pub mod viewmap;
 
 pub mod groups;
 
+pub mod contest;
+
 pub mod laplacian;
 
 pub mod mimic;
@@ -74,6 +76,8 @@ pub mod formats;
 pub mod diagram;
 
 pub mod render;
+
+pub mod certify;
 
 pub mod report;
 

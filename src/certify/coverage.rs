@@ -1,0 +1,1 @@
+//! What of every model reaches its viewer, and why the rest does not.

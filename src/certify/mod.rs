@@ -1,0 +1,9 @@
+//! Certificates: what a viewer and a printer are promised, measured on what was built.
+//!
+//! Each submodule takes results of earlier stages and gives figures with places; none changes what is built.
+
+pub mod camouflage;
+pub mod conflicts;
+pub mod coverage;
+pub mod printability;
+pub mod tolerance;
