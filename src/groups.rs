@@ -3,7 +3,7 @@
 //! Takes a view map, its target and the supports. Gives the groups (connected image regions of one support and one mesh
 //! component, each with a scale `mu_g` of its own, paper Eq 11) and for every point where the map's lines meet inside a group
 //! the relative depths `s = lambda / lambda0` allowed there. Because `1/lambda` is affine on a face and on a plane, bounds at
-//! all corners of all cells bound the relief everywhere in a flat layer; over a curved datum they hold at the corners only.
+//! all corners of all cells bound the relief everywhere: a layer is flat, or follows a surface that is flat in every cell.
 
 use crate::diag::Diagnostic;
 use crate::geom::barycentric;
@@ -14,6 +14,9 @@ use crate::viewmap::{SupportField, Target, ViewMap};
 /// Points nearer to a side of a face than this, in the image, lie on it: 0.1 micrometre at 250 mm, above all rounding and
 /// snapping, below the thinnest cell by twenty times.
 const ON_SIDE: f64 = 4e-7;
+
+/// Relative depths and weights that differ by less are the same: a thousandth of what bounds promise.
+const SAME: f64 = 1e-12;
 
 /// A connected region of the image on one support, of one mesh component.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,13 +59,26 @@ pub struct Bound {
     pub upper: f64,
 }
 
+impl Bound {
+    /// Whether two bounds at mixes of the same vertices differ by rounding only.
+    fn agrees(&self, other: &Bound) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME;
+        let weight = |v: usize| other.anchor.terms().find(|t| t.0 == v).map_or(0.0, |t| t.1);
+        near(self.lower, other.lower)
+            && near(self.upper, other.upper)
+            && self.anchor.terms().all(|(v, w)| near(w, weight(v)))
+    }
+}
+
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Groups {
     pub groups: Vec<Group>,
     /// Group of every cell of the map.
     pub of_cell: Vec<Option<u32>>,
+    /// The bounds at all corners of all cells; those from `needed` on follow from the others, but for rounding.
     pub bounds: Vec<Bound>,
+    pub needed: usize,
     /// The layer of every support from this eye.
     pub slabs: Vec<Option<Slab>>,
 }
@@ -120,11 +136,12 @@ pub fn groups(
     let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(carries).collect();
     let (groups, of_cell) = regions(map, &labels);
     check_layers(view, &groups, field, &slabs)?;
-    let bounds = bounds(map, target, field, &groups, &of_cell, &slabs);
+    let (bounds, needed) = bounds(map, target, field, &groups, &of_cell, &slabs);
     Ok(Groups {
         groups,
         of_cell,
         bounds,
+        needed,
         slabs,
     })
 }
@@ -136,15 +153,17 @@ pub fn with_bounds(
     target: &Target,
     field: &SupportField,
 ) -> Groups {
+    let (bounds, needed) = bounds(
+        map,
+        target,
+        field,
+        &groups.groups,
+        &groups.of_cell,
+        &groups.slabs,
+    );
     Groups {
-        bounds: bounds(
-            map,
-            target,
-            field,
-            &groups.groups,
-            &groups.of_cell,
-            &groups.slabs,
-        ),
+        bounds,
+        needed,
         ..groups.clone()
     }
 }
@@ -223,9 +242,10 @@ fn bounds(
     groups: &[Group],
     of_cell: &[Option<u32>],
     slabs: &[Option<Slab>],
-) -> Vec<Bound> {
-    // One bound for each group, point and set of vertices: cells that share a corner on a mesh vertex or edge agree there.
-    type Key = (u32, u32, [u32; 3]);
+) -> (Vec<Bound>, usize) {
+    // One bound for each group, plane of the layer, point and set of vertices: cells that share a corner on a mesh vertex or
+    // edge agree there.
+    type Key = (u32, Option<u32>, u32, [u32; 3]);
     let mut keyed: Vec<(Key, Bound)> = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
         let (Some(group), Some(face), Some(support)) = (of_cell[c], cell.face, cell.support) else {
@@ -237,7 +257,7 @@ fn bounds(
         for p in cell.corners {
             let q = map.points[p as usize];
             let (anchor, depth) = anchor(target, face as usize, q);
-            let (near, far) = layer_at(map, field, &slab, support, q);
+            let (near, far) = layer_in(map, field, &slab, c, q);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]
@@ -246,8 +266,9 @@ fn bounds(
                 }
             });
             key.sort_unstable();
+            let plane = cell.facet.filter(|_| slab.follows_surface());
             keyed.push((
-                (group, p, key),
+                (group, plane, p, key),
                 Bound {
                     group,
                     anchor,
@@ -257,14 +278,15 @@ fn bounds(
             ));
         }
     }
-    keyed.sort_by_key(|x| x.0);
-    keyed.dedup_by_key(|x| x.0);
-    let bounds: Vec<Bound> = keyed.into_iter().map(|x| x.1).collect();
-    needed(bounds, groups, field)
+    // Cells that share a corner agree there, unless merging thin cells has moved it off their side.
+    keyed.sort_by(|(k, a), (l, b)| k.cmp(l).then(a.lower.total_cmp(&b.lower)));
+    keyed.dedup_by(|(l, b), (k, a)| k == l && a.agrees(b));
+    needed_first(keyed.into_iter().map(|x| x.1).collect(), groups, field)
 }
 
-/// Without bounds that follow from others: on a flat layer, a point between vertices that are all bounded in the same group.
-fn needed(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> Vec<Bound> {
+/// Bounds, and how many of them come first because they do not follow from others: on a flat layer, those at points between
+/// vertices that are all bounded in the same group follow.
+fn needed_first(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> (Vec<Bound>, usize) {
     let alone = |b: &Bound| b.anchor.terms().count() == 1;
     let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0 as u32).next();
     let mut bounded: Vec<(u32, u32)> = bounds
@@ -286,7 +308,10 @@ fn needed(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> Vec<Bou
                 .terms()
                 .all(|(v, _)| bounded.binary_search(&(b.group, v as u32)).is_ok())
     };
-    bounds.into_iter().filter(|b| !follows(b)).collect()
+    let (follow, mut needed): (Vec<Bound>, Vec<Bound>) = bounds.into_iter().partition(follows);
+    let count = needed.len();
+    needed.extend(follow);
+    (needed, count)
 }
 
 /// Smallest and largest depth (along the image plane's forward axis) the layer of `support` allows on the ray `q`.
@@ -307,5 +332,22 @@ pub fn layer_at(
         .first_hit(map.plane.eye, direction)
         .filter(|h| h.0 == support)
         .map_or(on_axis, |h| h.1);
+    slab.bounds(direction, surface)
+}
+
+/// The same in a cell, whose part of the support is one plane: the inverses of both are affine over the cell.
+pub fn layer_in(
+    map: &ViewMap,
+    field: &SupportField,
+    slab: &Slab,
+    cell: usize,
+    q: glam::DVec2,
+) -> (f64, f64) {
+    let direction = map.plane.direction(q);
+    let facet = map.cells[cell].facet.filter(|_| slab.follows_surface());
+    let surface = match facet {
+        Some(f) => field.facet_depth(f, map.plane.eye, direction),
+        None => slab.plane(direction, 0.0),
+    };
     slab.bounds(direction, surface)
 }

@@ -70,6 +70,10 @@ pub struct ViewReport {
     /// Largest distance a point was moved along its ray to stay within its layer after solving, millimetres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound_violation_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order_inversions: Option<usize>,
     /// Where the surface was torn into steps, if it might be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<StepSummary>,
@@ -116,6 +120,14 @@ pub struct ProgramReport {
     pub primal_residual: f64,
     pub dual_residual: f64,
     pub duality_gap_rel: f64,
+    /// Independent parts that were solved one by one.
+    pub blocks: usize,
+    /// How often the program was solved again because depths between vertices broke a bound or an order, with how many
+    /// rows more, and the objective before.
+    pub rounds: u32,
+    pub rows_added: usize,
+    pub objective_first: f64,
+    pub broken_conditions: usize,
 }
 
 /// The finished forest.

@@ -16,7 +16,7 @@ pub enum Datum {
 }
 
 /// The room a relief may fill, in millimetres measured along the horizontal direction from the eye to the axis
-/// (`AxisPlane`) or along the ray (`Surface`).
+/// (`AxisPlane`) or along the rays, at the axis's distance (`Surface`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
     pub datum: Datum,
@@ -102,20 +102,19 @@ impl Slab {
         self.layer.datum == Datum::Surface
     }
 
-    /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support.
+    /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support. A shell is the
+    /// surface scaled about the eye, by `front` and `back` millimetres at the axis's distance: so its layer is flat over every
+    /// flat part of the surface.
     pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
         match self.layer.datum {
             Datum::AxisPlane => (
                 self.plane(direction, -self.layer.front),
                 self.plane(direction, self.layer.back),
             ),
-            Datum::Surface => {
-                let mm = 1.0 / direction.length();
-                (
-                    surface - self.layer.front * mm,
-                    surface + self.layer.back * mm,
-                )
-            }
+            Datum::Surface => (
+                surface * (1.0 - self.layer.front / self.distance),
+                surface * (1.0 + self.layer.back / self.distance),
+            ),
         }
     }
 

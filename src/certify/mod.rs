@@ -5,5 +5,6 @@
 pub mod camouflage;
 pub mod conflicts;
 pub mod coverage;
+pub mod layer;
 pub mod printability;
 pub mod tolerance;

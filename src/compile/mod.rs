@@ -92,7 +92,9 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     warnings.extend(loose(&forest));
     progress("pictures", 0.75);
     let pictures = pictures(scene, &shapes, &forest);
-    let report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
+    let report = report(
+        scene, &field, &sights, &shapes, &forest, &pictures, &warnings,
+    );
     progress("files", 0.9);
     let summary = summary(scene, &forest, &pictures);
     let mut files = Vec::new();

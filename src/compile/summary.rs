@@ -3,13 +3,16 @@
 use super::pictures::Pictures;
 use super::sight::{Shape, Sight};
 use crate::carve::Forest;
+use crate::certify::layer::{bound_violation_mm, order_inversions};
 use crate::diag::Diagnostic;
 use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
 use crate::scene::Scene;
+use crate::viewmap::SupportField;
 
 /// Gathers what every stage found.
 pub fn report(
     scene: &Scene,
+    field: &SupportField,
     sights: &[Sight],
     shapes: &[Shape],
     forest: &Forest,
@@ -31,16 +34,28 @@ pub fn report(
                 groups: Some(sight.groups.groups.len()),
                 cells: Some(sight.map.cells.len()),
                 clamp_mm: Some(shape.relief.clamp_mm),
+                bound_violation_mm: Some(bound_violation_mm(
+                    &sight.map,
+                    field,
+                    &sight.groups,
+                    &shape.relief,
+                )),
+                order_inversions: Some(order_inversions(&sight.map, &sight.target, &shape.relief)),
                 steps: shape.steps.as_ref().map(|s| s.1),
                 program: Some(ProgramReport {
                     variables: solved.variables,
                     rows: solved.rows,
-                    active_rows: solved.active,
+                    active_rows: solved.optimality.active,
                     iterations: solved.iterations,
-                    objective: solved.objective,
-                    primal_residual: solved.primal_residual,
-                    dual_residual: solved.dual_residual,
-                    duality_gap_rel: solved.gap,
+                    objective: solved.optimality.objective,
+                    primal_residual: solved.optimality.primal_residual,
+                    dual_residual: solved.optimality.dual_residual,
+                    duality_gap_rel: solved.optimality.gap,
+                    blocks: solved.blocks,
+                    rounds: solved.rounds,
+                    rows_added: solved.added,
+                    objective_first: solved.objective_first,
+                    broken_conditions: solved.broken,
                 }),
                 lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
                 ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)

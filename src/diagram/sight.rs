@@ -129,18 +129,16 @@ impl Sight {
 
     /// Distances on one ray of the layer's front, datum and back.
     fn limits(&self, layer: Layer, axis: DVec2, angle: f64, hit: f64) -> [f64; 3] {
-        match layer.datum {
-            Datum::Surface => [hit - layer.front, hit, hit + layer.back],
-            Datum::AxisPlane => {
-                let distance = self.eye.distance(axis);
-                let at = distance * distance / self.direction(angle).dot(axis - self.eye);
-                [
-                    at * (1.0 - layer.front / distance),
-                    at,
-                    at * (1.0 + layer.back / distance),
-                ]
-            }
-        }
+        let distance = self.eye.distance(axis);
+        let at = match layer.datum {
+            Datum::Surface => hit,
+            Datum::AxisPlane => distance * distance / self.direction(angle).dot(axis - self.eye),
+        };
+        [
+            at * (1.0 - layer.front / distance),
+            at,
+            at * (1.0 + layer.back / distance),
+        ]
     }
 }
 

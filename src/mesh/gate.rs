@@ -3,11 +3,13 @@
 //! Takes a mesh as read from anybody's file; gives one whose equal vertices are joined, without repeated-index or
 //! duplicate faces and stray vertices, wound consistently and outwards wherever that has a meaning. Open, touching and
 //! self-intersecting surfaces stay as they are: an eye can look at them. Everything done or left is said in one
-//! warning. Coordinates do not change, except that cracks narrower than [`CRACK`] are closed.
+//! warning. Coordinates do not change, except that cracks narrower than [`CRACK`] are closed; vertices and faces are numbered
+//! by place, so that nothing later depends on the file's order.
 
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::mesh::TriMesh;
 use crate::mesh::defects::{DefectKind, check};
+use crate::mesh::order::in_order;
 use crate::mesh::shells::shells;
 use crate::mesh::topology::{Edges, HalfEdge};
 use crate::mesh::weld::{
@@ -74,7 +76,8 @@ fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<TriMesh, String> {
     let stray = drop_unreferenced(&mut mesh);
     let size = extent(&mesh)?;
     let closed_as_read = Edges::new(&mesh).iter().all(|e| e.len() > 1);
-    let (mut mesh, joined) = seal_cracks(weld(&mesh, 0.0).mesh, CRACK * size.length());
+    let numbered = in_order(&weld(&mesh, 0.0).mesh);
+    let (mut mesh, joined) = seal_cracks(numbered, CRACK * size.length());
     let repeated = drop_collapsed(&mut mesh);
     let duplicates = drop_duplicates(&mut mesh);
     // A flat sheet can be looked at; a body pressed flat is a mistake. What is left of one is folded onto itself.

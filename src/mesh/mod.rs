@@ -6,6 +6,7 @@ pub mod detach;
 pub mod gate;
 pub mod intersect;
 pub mod mend;
+pub mod order;
 pub mod polygon;
 pub mod separate;
 pub mod shells;

@@ -77,19 +77,28 @@ fn place(mesh: &TriMesh, component: &[u32], shells: &mut [Shell]) {
     }
 }
 
-/// The mesh without shells that face inwards: hollows nobody can see or empty are filled.
-pub fn without_cavities(mut mesh: TriMesh) -> TriMesh {
+/// The mesh without shells that face inwards and shells inside of others: hollows nobody can see or empty are filled.
+pub fn without_cavities(mesh: TriMesh) -> TriMesh {
     let component = face_components(&mesh);
     let hollow: Vec<bool> = volumes(&mesh, &component)
         .iter()
         .map(|s| s.volume < 0.0)
         .collect();
-    if hollow.contains(&true) {
-        let mut component = component.iter();
-        mesh.faces
-            .retain(|_| component.next().is_some_and(|c| !hollow[*c as usize]));
-        drop_unreferenced(&mut mesh);
+    let filled = without(mesh, &component, &hollow);
+    let component = face_components(&filled);
+    let buried: Vec<bool> = shells(&filled).iter().map(|s| s.winding > 0).collect();
+    without(filled, &component, &buried)
+}
+
+/// The mesh without the shells that are `unwanted`.
+fn without(mut mesh: TriMesh, component: &[u32], unwanted: &[bool]) -> TriMesh {
+    if !unwanted.contains(&true) {
+        return mesh;
     }
+    let mut component = component.iter();
+    let kept = |c: Option<&u32>| c.is_some_and(|c| !unwanted[*c as usize]);
+    mesh.faces.retain(|_| kept(component.next()));
+    drop_unreferenced(&mut mesh);
     mesh
 }
 

@@ -5,11 +5,12 @@
 //! zero for `s = 1`. Bounds are Eq 11. The gauge is a mean of 1 of the area-weighted `s` over each block of components and
 //! groups that hang together: the paper pins one vertex, but then the result depends on which.
 
-use super::ordering::Order;
-use super::program::{Program, Quadratic, Row, RowKind};
-use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles, solve};
+use super::conditions::{Condition, plain_tangent};
+use super::lazily::{MARGIN, Meaning, solve_lazily};
+use super::program::{Program, Quadratic, Row, gathered};
+use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles};
 use crate::geom::solid_angle;
-use crate::groups::Groups;
+use crate::groups::{Bound, Groups};
 use crate::laplacian::FaceGeometry;
 use crate::mesh::DisjointSets;
 use crate::viewmap::{Target, ViewMap};
@@ -18,14 +19,22 @@ use glam::DVec3;
 /// Weight of `mu^2` relative to the mean diagonal (the paper's alpha): 1e-12 to 1e-7 give the same surface.
 const ALPHA: f64 = 1e-9;
 
-/// Depths of the whole mesh.
+/// Depths of the whole mesh under `conditions`, of which the first `rows` are rows from the start and the others only where
+/// a solution breaks them.
 pub fn depths(
     options: CurvatureOptions,
     target: &Target,
     map: &ViewMap,
     groups: &Groups,
-    orders: &[Order],
+    conditions: &[Condition],
+    rows: usize,
 ) -> Result<Depths, SolveError> {
+    let width = |b: &Bound| (b.upper / b.lower).ln();
+    let widest = groups.bounds.iter().map(width).fold(0.0, f64::max);
+    let conditions: Vec<Condition> = conditions
+        .iter()
+        .map(|c| c.tightened(MARGIN * widest))
+        .collect();
     let n = target.mesh.vertices.len();
     let geometry = FaceGeometry::new(&target.mesh);
     let areas = geometry.vertex_areas(&target.mesh);
@@ -50,20 +59,30 @@ pub fn depths(
     (0..n)
         .filter(|i| !used[*i])
         .for_each(|i| quadratic.square(i, 1.0));
-    let program = Program {
+    let ones = vec![1.0; n];
+    let tangent = |c: &Condition, s: &[f64]| row(c, s, n);
+    let mut program = Program {
         variables: n + groups.groups.len(),
         linear: vec![0.0; n + groups.groups.len()],
         quadratic: quadratic.finish(),
-        equalities: gauge(target, groups, orders, &areas),
-        rows: rows(n, groups, orders),
+        equalities: gauge(target, groups, &conditions, &areas),
+        rows: conditions[..rows]
+            .iter()
+            .filter_map(|c| row(c, &ones, n))
+            .collect(),
     };
-    let (u, solved) = solve(&program)?;
-    let s: Vec<f64> = (0..n).map(|i| if used[i] { u[i] } else { 1.0 }).collect();
-    Ok(Depths {
-        mu: scales(groups, &s),
-        s,
-        solved,
-    })
+    let depths = |u: &[f64]| {
+        let s: Vec<f64> = (0..n).map(|i| if used[i] { u[i] } else { 1.0 }).collect();
+        let mu = scales(groups, &[], &s, |_| 1.0);
+        (s, mu)
+    };
+    let meaning = Meaning {
+        depths: &depths,
+        tangent: &tangent,
+    };
+    let (u, solved) = solve_lazily(&mut program, &conditions, &meaning)?;
+    let (s, mu) = depths(&u);
+    Ok(Depths { s, mu, solved })
 }
 
 /// Vertices of whose faces turned to the eye at least half is seen, by solid angle. A share rather than the vertex itself,
@@ -119,7 +138,7 @@ fn vertex_forms(target: &Target, geometry: &FaceGeometry, eye: DVec3) -> Vec<Vec
 fn gauge(
     target: &Target,
     groups: &Groups,
-    orders: &[Order],
+    conditions: &[Condition],
     areas: &[f64],
 ) -> Vec<(Vec<(usize, f64)>, f64)> {
     let n = areas.len();
@@ -131,8 +150,9 @@ fn gauge(
     for bound in &groups.bounds {
         blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
     }
-    for order in orders {
-        blocks.join(order.front.vertices[0], order.back.vertices[0]);
+    let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
+    for [front, back] in conditions.iter().filter_map(sides) {
+        blocks.join(front, back);
     }
     let mut members: Vec<(u32, usize)> = (0..n)
         .filter(|i| areas[*i] > 0.0)
@@ -146,42 +166,32 @@ fn gauge(
     members.chunk_by(|x, y| x.0 == y.0).map(block).collect()
 }
 
-/// Bounds (Eq 11) and orders within groups (Eq 12), with harmonic means taken as arithmetic ones.
-fn rows(n: usize, groups: &Groups, orders: &[Order]) -> Vec<Row> {
-    let mut rows = Vec::with_capacity(2 * groups.bounds.len() + orders.len());
-    for (i, bound) in groups.bounds.iter().enumerate() {
-        let mu = n + bound.group as usize;
-        let mut far: Vec<(usize, f64)> = bound.anchor.terms().collect();
-        let mut near: Vec<(usize, f64)> = far.iter().map(|(j, v)| (*j, -v)).collect();
-        far.push((mu, -bound.upper));
-        near.push((mu, bound.lower));
-        rows.push(Row {
-            kind: RowKind::Far(i as u32),
-            terms: far,
-            limit: 0.0,
-        });
-        rows.push(Row {
-            kind: RowKind::Near(i as u32),
-            terms: near,
-            limit: 0.0,
-        });
+/// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
+/// groups has no row: `tau / mu` is not convex there.
+fn row(condition: &Condition, s: &[f64], n: usize) -> Option<Row> {
+    let mut terms = Vec::with_capacity(7);
+    let factor = match (condition.plus, condition.minus) {
+        (Some(_), Some(_)) if condition.between_groups().is_some() => return None,
+        (Some(_), Some(_)) => (-condition.limit).exp(),
+        _ => 1.0,
+    };
+    if let Some(side) = condition.plus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, factor * g)));
+        if condition.minus.is_none() {
+            terms.push((n + side.group as usize, -condition.limit.exp()));
+        }
     }
-    for (i, order) in orders
-        .iter()
-        .enumerate()
-        .filter(|(_, o)| o.front_group == o.back_group)
-    {
-        let mut terms: Vec<(usize, f64)> = order
-            .front
-            .terms()
-            .map(|(j, v)| (j, v * order.ratio))
-            .collect();
-        terms.extend(order.back.terms().map(|(j, v)| (j, -v)));
-        rows.push(Row {
-            kind: RowKind::Order(i as u32),
-            terms,
-            limit: 0.0,
-        });
+    if let Some(side) = condition.minus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, -g)));
+        if condition.plus.is_none() {
+            terms.push((n + side.group as usize, (-condition.limit).exp()));
+        }
     }
-    rows
+    Some(Row {
+        kind: condition.kind,
+        terms: gathered(terms),
+        limit: 0.0,
+    })
 }

@@ -1,21 +1,28 @@
 //! The optimisation: depths along the eye's rays that keep the model's normals within hard bounds.
 //!
 //! Takes a target, its view map and groups. Gives a relative depth `s` for every vertex of the optimised mesh and a scale `mu`
-//! for every group. Promises that `s / mu` obeys every bound at vertices exactly; at points inside faces the bounds were
-//! linearised and the relief clamps what is left (see `relief`).
+//! for every group. Promises that `s / mu` obeys every bound and every depth order, at vertices and at points inside faces
+//! alike (rows are added until it does, see `conditions`; where the solver fails to, the relief clamps and says by how much),
+//! and that the optimum is proved by residuals measured on the result (`certificate`).
 //!
 //! Symbols (paper): eye `o`; `lambda0` distance of a vertex from the eye in the model, `lambda` in the result;
 //! `s = lambda / lambda0` relative depth, `x = ln s`; `mu_g` scale of group `g`, `m_g = ln mu_g`; `w` vertex weights (Eq 13).
 
+mod blocks;
+mod certificate;
+mod conditions;
 mod curvature;
+mod lazily;
 mod normal;
 mod ordering;
 mod program;
 mod solve;
 
-pub use ordering::{Order, orders};
+pub use certificate::{Optimality, optimality};
+pub use conditions::Condition;
+pub use ordering::{Order, Orders, orders};
 pub use program::{Program, Row, RowKind};
-pub use solve::{SolveError, Solved, solve};
+pub use solve::{Solution, SolveError, Solved, solve};
 
 use crate::groups::Groups;
 use crate::viewmap::{SupportField, Target, ViewMap};
@@ -83,11 +90,16 @@ pub fn depths(
     let orders = if ordered {
         orders(target, map, field, groups)
     } else {
-        Vec::new()
+        Orders::default()
     };
+    let (conditions, rows) = conditions::all(groups, &orders);
     match energy {
-        Energy::Normal(options) => normal::depths(options, target, map, groups, &orders, None),
-        Energy::Curvature(options) => curvature::depths(options, target, map, groups, &orders),
+        Energy::Normal(options) => {
+            normal::depths(options, target, map, groups, &conditions, rows, None)
+        }
+        Energy::Curvature(options) => {
+            curvature::depths(options, target, map, groups, &conditions, rows)
+        }
     }
 }
 
@@ -130,7 +142,20 @@ pub fn opened_depths(
     orders: &[Order],
     opening: &Opening,
 ) -> Result<Depths, SolveError> {
-    normal::depths(options, target, map, groups, orders, Some(opening))
+    let orders = Orders {
+        all: orders.to_vec(),
+        nearest: orders.len(),
+    };
+    let (conditions, rows) = conditions::all(groups, &orders);
+    normal::depths(
+        options,
+        target,
+        map,
+        groups,
+        &conditions,
+        rows,
+        Some(opening),
+    )
 }
 
 /// The solid angle seen of every face, steradians.
@@ -145,12 +170,20 @@ fn seen_solid_angles(target: &Target, map: &ViewMap) -> Vec<f64> {
 }
 
 /// The smallest scale that keeps a group within its upper bounds (the paper's choice among equal optima: as close to the
-/// support as the layer allows), in closed form because a regulariser does not determine it to the last digits.
-fn scales(groups: &Groups, s: &[f64]) -> Vec<f64> {
+/// support as the layer allows), in closed form because a regulariser does not determine it to the last digits. Groups that
+/// an order ties to another keep the scale `free` of the solution.
+fn scales(
+    groups: &Groups,
+    conditions: &[Condition],
+    s: &[f64],
+    free: impl Fn(u32) -> f64,
+) -> Vec<f64> {
     let mut mu = vec![f64::MIN_POSITIVE; groups.groups.len()];
     for bound in &groups.bounds {
         let slot = &mut mu[bound.group as usize];
         *slot = slot.max(bound.anchor.relative_depth(s) / bound.upper);
     }
+    let tied = conditions.iter().filter_map(Condition::between_groups);
+    tied.flatten().for_each(|g| mu[g as usize] = free(g));
     mu
 }

@@ -5,12 +5,13 @@
 //! `q` is the surface gradient of `1/s`, its normal part `1/(h s)`. So `E(x) = sum of a_f h_f^2 |grad_f x|^2` measures what the
 //! paper's Eq 2 asks for, as one weighted cotangent matrix. Bounds are linear in `x - m`, groups additive.
 
-use super::ordering::Order;
-use super::program::{Program, Quadratic, Row, RowKind, mean_diagonal};
+use super::conditions::{Condition, Side, log_tangent};
+use super::lazily::{MARGIN, Meaning, solve_lazily};
+use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::{
-    Depths, FaceWeight, NormalOptions, Opening, SolveError, Tie, scales, seen_solid_angles, solve,
+    Depths, FaceWeight, NormalOptions, Opening, SolveError, Tie, scales, seen_solid_angles,
 };
-use crate::groups::{Anchor, Groups};
+use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
 use crate::viewmap::{Target, ViewMap};
 
@@ -28,51 +29,63 @@ const LEAST_TURN: f64 = 1e-3;
 /// contradict bounds.
 const TIE: f64 = 10.0;
 
-/// Depths of the visible sub-mesh.
+/// Depths of the visible sub-mesh under `conditions`, of which the first `rows` are rows from the start and the others only
+/// where a solution breaks them.
 pub fn depths(
     options: NormalOptions,
     target: &Target,
     map: &ViewMap,
     groups: &Groups,
-    orders: &[Order],
+    conditions: &[Condition],
+    rows: usize,
     opening: Option<&Opening>,
 ) -> Result<Depths, SolveError> {
     let seen = seen_solid_angles(target, map);
     let index = Variables::new(target, &seen);
     let unit = typical_width(groups);
-    let scales_of_groups = if opening.is_some() {
-        0
-    } else {
-        groups.groups.len()
-    };
-    let variables = index.count + scales_of_groups;
+    let scaled = opening.is_none();
+    let variables = index.count + if scaled { groups.groups.len() } else { 0 };
     let faces = Faces::new(options.weight, target, map, &seen, opening);
-    let mut rows = rows(groups, orders, &index, unit, opening.is_none());
-    rows.extend(opening.iter().flat_map(|o| step_rows(o, &index, unit)));
+    let conditions: Vec<Condition> = conditions
+        .iter()
+        .map(|c| c.tightened(MARGIN * unit))
+        .collect();
+    let tangent = |c: &Condition, s: &[f64]| index.tangent(c, s, unit, scaled);
+    let start = index.start(opening);
+    let mut first: Vec<Row> = conditions[..rows]
+        .iter()
+        .filter_map(|c| tangent(c, &start))
+        .collect();
+    first.extend(opening.iter().flat_map(|o| step_rows(o, &index, unit)));
     let mut program = Program {
         variables,
         linear: linear(opening, &index, unit, variables),
         quadratic: faces.energy(&index, variables, opening, &|_| 1.0),
         equalities: Vec::new(),
-        rows,
+        rows: first,
     };
-    let (mut u, mut solved) = solve(&program)?;
+    let depths = |u: &[f64]| {
+        let s = index.relative_depths(u, unit);
+        let mu = if scaled {
+            let free = |g: u32| (u[index.scale(g)] * unit).exp();
+            scales(groups, &conditions, &s, free)
+        } else {
+            vec![1.0; groups.groups.len()]
+        };
+        (s, mu)
+    };
+    let meaning = Meaning {
+        depths: &depths,
+        tangent: &tangent,
+    };
+    let (mut u, mut solved) = solve_lazily(&mut program, &conditions, &meaning)?;
     for _ in 0..options.reweight {
         let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
         program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
-        (u, solved) = solve(&program)?;
+        (u, solved) = solve_lazily(&mut program, &conditions, &meaning)?;
     }
-    let s: Vec<f64> = index
-        .of_vertex
-        .iter()
-        .map(|i| i.map_or(1.0, |i| (u[i as usize] * unit).exp()))
-        .collect();
-    let mu = if opening.is_some() {
-        vec![1.0; groups.groups.len()]
-    } else {
-        scales(groups, &s)
-    };
-    Ok(Depths { mu, s, solved })
+    let (s, mu) = depths(&u);
+    Ok(Depths { s, mu, solved })
 }
 
 /// The regulariser's pull to where the surface starts, and the forces on it.
@@ -129,12 +142,49 @@ impl Variables {
         tie.iter().filter_map(term).collect()
     }
 
-    /// Terms of `factor * sum of weight * x` over the anchor's vertices.
-    fn terms(&self, anchor: &Anchor, factor: f64) -> Vec<(usize, f64)> {
-        anchor
-            .terms()
-            .filter_map(|(v, w)| Some((self.of_vertex[v]? as usize, factor * w)))
-            .collect()
+    /// The variable of a group's scale.
+    fn scale(&self, group: u32) -> usize {
+        self.count + group as usize
+    }
+
+    /// Relative depths of all vertices near the result: where rows first touch their conditions.
+    fn start(&self, opening: Option<&Opening>) -> Vec<f64> {
+        match opening {
+            Some(o) => o.start.iter().map(|x| x.exp()).collect(),
+            None => vec![1.0; self.of_vertex.len()],
+        }
+    }
+
+    fn relative_depths(&self, u: &[f64], unit: f64) -> Vec<f64> {
+        let depth = |i: &Option<u32>| i.map_or(1.0, |i| (u[i as usize] * unit).exp());
+        self.of_vertex.iter().map(depth).collect()
+    }
+
+    /// The row that touches a condition at the depths `s`; scales are unknowns only if `scaled`, else 1.
+    fn tangent(&self, condition: &Condition, s: &[f64], unit: f64, scaled: bool) -> Option<Row> {
+        let mut terms: Vec<(usize, f64)> = Vec::with_capacity(8);
+        let mut limit = condition.limit;
+        let mut add = |side: Option<Side>, sign: f64| {
+            let Some(Side { anchor, group }) = side else {
+                return Some(());
+            };
+            let (tangent, constant) = log_tangent(&anchor, s);
+            for (v, p) in tangent {
+                terms.push((self.of_vertex[v]? as usize, sign * p));
+            }
+            if scaled {
+                terms.push((self.scale(group), -sign));
+            }
+            limit -= sign * constant;
+            Some(())
+        };
+        add(condition.plus, 1.0)?;
+        add(condition.minus, -1.0)?;
+        Some(Row {
+            kind: condition.kind,
+            terms: gathered(terms),
+            limit: limit / unit,
+        })
     }
 }
 
@@ -248,40 +298,6 @@ fn regularised(
         .for_each(|(v, (i, j))| triplets.add_triplet(i, j, v / mean));
     (0..energy.rows()).for_each(|i| triplets.add_triplet(i, i, REGULARISER));
     triplets.to_csc()
-}
-
-/// Bounds (Eq 11) and orders (Eq 12), on `x - m` where groups have scales and on `x` where they are 1.
-fn rows(groups: &Groups, orders: &[Order], index: &Variables, unit: f64, scaled: bool) -> Vec<Row> {
-    let m = |g: u32| index.count + g as usize;
-    let mut rows = Vec::with_capacity(2 * groups.bounds.len() + orders.len());
-    for (i, bound) in groups.bounds.iter().enumerate() {
-        let mut far = index.terms(&bound.anchor, 1.0);
-        far.extend(scaled.then(|| (m(bound.group), -1.0)));
-        let near = far.iter().map(|(j, v)| (*j, -v)).collect();
-        rows.push(Row {
-            kind: RowKind::Far(i as u32),
-            terms: far,
-            limit: bound.upper.ln() / unit,
-        });
-        rows.push(Row {
-            kind: RowKind::Near(i as u32),
-            terms: near,
-            limit: -bound.lower.ln() / unit,
-        });
-    }
-    for (i, order) in orders.iter().enumerate() {
-        let mut terms = index.terms(&order.front, 1.0);
-        terms.extend(index.terms(&order.back, -1.0));
-        if scaled && order.front_group != order.back_group {
-            terms.extend([(m(order.front_group), -1.0), (m(order.back_group), 1.0)]);
-        }
-        rows.push(Row {
-            kind: RowKind::Order(i as u32),
-            terms,
-            limit: -order.ratio.ln() / unit,
-        });
-    }
-    rows
 }
 
 /// Both limits of every step.

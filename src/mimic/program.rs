@@ -86,3 +86,15 @@ pub fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
         .sum();
     sum / n.max(1) as f64
 }
+
+/// Terms of one variable as one, in rising order.
+pub fn gathered(mut terms: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    terms.sort_by_key(|t| t.0);
+    terms.dedup_by(|b, a| {
+        let same = a.0 == b.0;
+        a.1 += if same { b.1 } else { 0.0 };
+        same
+    });
+    terms.retain(|t| t.1 != 0.0);
+    terms
+}

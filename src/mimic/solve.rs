@@ -1,28 +1,45 @@
 //! Solving a program: the only module that names `clarabel`.
 
+use super::blocks::{Block, blocks};
+use super::certificate::{Optimality, optimality};
 use super::program::{Program, RowKind};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
+use rayon::prelude::*;
 use sprs::{CsMat, TriMat};
 
 /// More iterations than any program met so far needed (15-60).
 const MAX_ITERATIONS: u32 = 200;
 
-/// What the solver reached.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What was reached for a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solved {
     pub variables: usize,
     pub rows: usize,
-    /// Rows with a positive multiplier.
-    pub active: usize,
+    /// Independent parts that were solved one by one.
+    pub blocks: usize,
+    /// Of the part that needed most.
     pub iterations: u32,
-    pub objective: f64,
-    pub primal_residual: f64,
-    pub dual_residual: f64,
-    /// Relative gap between primal and dual objective.
-    pub gap: f64,
+    /// Objective, residuals and duality gap, measured on the result.
+    pub optimality: Optimality,
+    /// How often it was solved again with more rows, how many were added, and the objective before.
+    pub rounds: u32,
+    pub added: usize,
+    pub objective_first: f64,
+    /// Conditions that are broken all the same.
+    pub broken: usize,
+}
+
+/// A solved program.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub u: Vec<f64>,
+    /// Multipliers of rows and equalities.
+    pub z: Vec<f64>,
+    pub y: Vec<f64>,
+    pub solved: Solved,
 }
 
 /// Why there is no solution.
@@ -45,8 +62,74 @@ impl SolveError {
     }
 }
 
-/// Solves the program; gives its variables.
-pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
+/// Solves the program, block by block.
+///
+/// # Errors
+/// If rows contradict each other or the solver gives up.
+pub fn solve(program: &Program) -> Result<Solution, SolveError> {
+    let nothing = Solution {
+        u: vec![0.0; program.variables],
+        z: Vec::new(),
+        y: vec![0.0; program.equalities.len()],
+        solved: Solved::default(),
+    };
+    solve_where(program, nothing, &|_| true)
+}
+
+/// Solves the program again to which rows were added from `new_rows` on: only blocks that these belong to.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_again(
+    program: &Program,
+    before: &Solution,
+    new_rows: usize,
+) -> Result<Solution, SolveError> {
+    let changed = |b: &Block| b.rows.last().is_some_and(|r| *r as usize >= new_rows);
+    solve_where(program, before.clone(), &changed)
+}
+
+/// Solves the blocks that are `wanted`; the rest of `solution` stays.
+fn solve_where(
+    program: &Program,
+    mut solution: Solution,
+    wanted: &dyn Fn(&Block) -> bool,
+) -> Result<Solution, SolveError> {
+    let blocks = blocks(program);
+    let count = blocks.len();
+    let todo: Vec<Block> = blocks.into_iter().filter(wanted).collect();
+    let solved: Vec<Part> = todo.par_iter().map(solve_block).collect::<Result<_, _>>()?;
+    solution.z.resize(program.rows.len(), 0.0);
+    for (block, part) in todo.iter().zip(&solved) {
+        let place = |to: &mut [f64], at: &[u32], from: &[f64]| {
+            at.iter().zip(from).for_each(|(i, v)| to[*i as usize] = *v);
+        };
+        place(&mut solution.u, &block.variables, &part.u);
+        place(&mut solution.z, &block.rows, &part.z);
+        place(&mut solution.y, &block.equalities, &part.y);
+    }
+    let iterations = solved.iter().map(|p| p.iterations).max().unwrap_or(0);
+    solution.solved = Solved {
+        variables: program.variables,
+        rows: program.rows.len(),
+        blocks: count,
+        iterations: iterations.max(solution.solved.iterations),
+        optimality: optimality(program, &solution.u, &solution.z, &solution.y),
+        ..Solved::default()
+    };
+    Ok(solution)
+}
+
+/// The solution of one block.
+struct Part {
+    u: Vec<f64>,
+    z: Vec<f64>,
+    y: Vec<f64>,
+    iterations: u32,
+}
+
+fn solve_block(block: &Block) -> Result<Part, SolveError> {
+    let program = &block.program;
     let p = csc(&program.quadratic);
     let (a, b) = constraints(program);
     let cones = [
@@ -64,36 +147,24 @@ pub fn solve(program: &Program) -> Result<(Vec<f64>, Solved), SolveError> {
     let mut solver = DefaultSolver::new(&p, &program.linear, &a, &b, &cones, settings)
         .map_err(|e| SolveError::Unsolved(e.to_string()))?;
     solver.solve();
-    let (solution, info) = (&solver.solution, &solver.info);
-    let multipliers = &solution.z[program.equalities.len()..];
+    let solution = &solver.solution;
+    let (y, z) = solution.z.split_at(program.equalities.len());
     match solution.status {
-        SolverStatus::Solved | SolverStatus::AlmostSolved => {}
+        SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(Part {
+            u: solution.x.clone(),
+            z: z.to_vec(),
+            y: y.to_vec(),
+            iterations: solution.iterations,
+        }),
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
-            let worst = (0..multipliers.len())
-                .max_by(|i, j| multipliers[*i].abs().total_cmp(&multipliers[*j].abs()));
-            return Err(SolveError::Infeasible(worst.map(|i| program.rows[i].kind)));
+            let worst = (0..z.len()).max_by(|i, j| z[*i].abs().total_cmp(&z[*j].abs()));
+            Err(SolveError::Infeasible(worst.map(|i| program.rows[i].kind)))
         }
-        other => {
-            return Err(SolveError::Unsolved(format!(
-                "{other:?} after {} iterations",
-                solution.iterations
-            )));
-        }
+        other => Err(SolveError::Unsolved(format!(
+            "{other:?} after {} iterations",
+            solution.iterations
+        ))),
     }
-    let slacks = &solution.s[program.equalities.len()..];
-    let solved = Solved {
-        variables: program.variables,
-        rows: program.rows.len(),
-        active: (0..slacks.len())
-            .filter(|i| multipliers[*i] > slacks[*i])
-            .count(),
-        iterations: solution.iterations,
-        objective: solution.obj_val,
-        primal_residual: solution.r_prim,
-        dual_residual: solution.r_dual,
-        gap: info.gap_rel,
-    };
-    Ok((solution.x.clone(), solved))
 }
 
 /// `A` and `b` of `A u + slack = b`: equalities first, then rows.

@@ -9,7 +9,7 @@ mod block;
 
 pub use block::{Block, block};
 
-use crate::groups::{Groups, anchor, layer_at};
+use crate::groups::{Groups, anchor, layer_in};
 use crate::mimic::Depths;
 use crate::viewmap::{SupportField, Target, ViewMap};
 
@@ -44,7 +44,7 @@ pub fn relief(
             let q = map.points[p as usize];
             let (anchor, model_depth) = anchor(target, face as usize, q);
             let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
-            let (near, far) = layer_at(map, field, &slab, support, q);
+            let (near, far) = layer_in(map, field, &slab, c, q);
             let kept = free.clamp(near, far.max(near));
             clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
             kept

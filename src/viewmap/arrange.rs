@@ -137,6 +137,7 @@ fn triangulate(
                 corners,
                 face: None,
                 support: None,
+                facet: None,
                 support_depth: f64::INFINITY,
             })
             .collect(),

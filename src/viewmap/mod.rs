@@ -6,7 +6,8 @@
 //! do not overlap and cover a rectangle around the model; no cell is thinner than [`TIDY_MM`] at the model's distance
 //! except where the triangulation cannot give way. Does *not* promise anything about depth.
 //!
-//! The edges of every face that is seen at all and the seen parts of the supports' outlines are constraints of a
+//! The edges of every face that is seen at all and the seen parts of the supports' outlines (and edges, where a layer follows
+//! their surface, so that every cell lies on one of its planes) are constraints of a
 //! constrained Delaunay triangulation (`spade`, split at crossings). Labels come from one ray a cell; a cell that
 //! sticks out of the face its ray met proves that a face is missing, which is then found, added, and the map rebuilt.
 
@@ -17,7 +18,7 @@ mod tidy;
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
 use crate::mesh::{DisjointSets, Edges, TriMesh};
-use crate::support::{Support, SupportKind};
+use crate::support::{Datum, Support, SupportKind};
 use glam::{DVec2, DVec3};
 
 /// Cells thinner than this, in millimetres at the model's mean distance, are merged away: below it, f32 coordinates and
@@ -36,6 +37,8 @@ pub struct Cell {
     pub face: Option<u32>,
     /// The support first hit here.
     pub support: Option<u32>,
+    /// The face of the supports' mesh hit here, for [`SupportField::facet_depth`].
+    pub facet: Option<u32>,
     /// Depth along the forward axis at which the cell's centre meets it; infinite without.
     pub support_depth: f64,
 }
@@ -116,6 +119,19 @@ impl<'a> SupportField<'a> {
         self.bvh
             .first_hit(origin, direction)
             .map(|h| (self.owner[h.face], h.t))
+    }
+
+    /// The ray's parameter at the plane of a face of the supports; not finite if they are parallel.
+    pub fn facet_depth(&self, facet: u32, origin: DVec3, direction: DVec3) -> f64 {
+        let normal = self.mesh.area_vector(facet as usize);
+        let corner = self.mesh.corners(facet as usize)[0];
+        normal.dot(corner - origin) / normal.dot(direction)
+    }
+
+    /// Whether the layer of the support that a face belongs to follows its surface.
+    fn is_shell(&self, facet: u32) -> bool {
+        let layer = self.supports[self.owner[facet as usize] as usize].layer;
+        layer.is_some_and(|l| l.datum == Datum::Surface)
     }
 
     /// Top of the base, if there is one.
@@ -267,9 +283,11 @@ fn label(map: &mut ViewMap, target: &Target, supports: &SupportField) -> Vec<usi
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
         let face = seen_face(&map.plane, target, centre);
         map.cells[c].face = face.map(|f| f as u32);
-        let hit = supports.first_hit(map.plane.eye, map.plane.direction(centre));
-        map.cells[c].support = hit.map(|h| h.0);
-        map.cells[c].support_depth = hit.map_or(f64::INFINITY, |h| h.1);
+        let direction = map.plane.direction(centre);
+        let hit = supports.bvh.first_hit(map.plane.eye, direction);
+        map.cells[c].support = hit.map(|h| supports.owner[h.face]);
+        map.cells[c].facet = hit.map(|h| h.face as u32);
+        map.cells[c].support_depth = hit.map_or(f64::INFINITY, |h| h.t);
         if face.is_some_and(|f| !holds(target.image_of(f), corners)) {
             doubtful.push(c);
         }

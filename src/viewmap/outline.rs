@@ -2,10 +2,13 @@
 
 use super::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
+use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;
-use crate::mesh::{Edges, TriMesh};
 use crate::support::SupportKind;
 use glam::{DVec2, DVec3};
+
+/// Unit normals that differ by less belong to one plane: rounding of coordinates.
+const PLANE: f64 = 1e-9;
 
 /// A piece of outline in the image.
 pub type Segment = [DVec2; 2];
@@ -22,7 +25,7 @@ pub fn seen_outlines(
     field: &SupportField,
     window: (DVec2, DVec2),
 ) -> Vec<Segment> {
-    let mut lines: Vec<Line> = silhouette(&field.mesh, plane.eye)
+    let mut lines: Vec<Line> = silhouette(field, plane.eye)
         .iter()
         .filter_map(|e| line(plane, *e))
         .collect();
@@ -43,8 +46,10 @@ pub fn seen_outlines(
     seen
 }
 
-/// Edges between a face turned to the eye and one turned away (or no face).
-fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
+/// Edges between a face turned to the eye and one turned away (or no face), and those between two planes of a surface that a
+/// layer follows.
+fn silhouette(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
+    let mesh = &field.mesh;
     let faces_eye = |f: u32| {
         mesh.area_vector(f as usize)
             .dot(eye - mesh.corners(f as usize)[0])
@@ -52,7 +57,7 @@ fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
     };
     let on_outline = |sides: &&[HalfEdge]| {
         let front = sides.iter().filter(|h| faces_eye(h.face)).count();
-        front == 1 || (front > 0 && sides.len() != 2)
+        front == 1 || (front > 0 && (sides.len() != 2 || is_bent(field, sides)))
     };
     let ends =
         |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
@@ -61,6 +66,13 @@ fn silhouette(mesh: &TriMesh, eye: DVec3) -> Vec<[DVec3; 2]> {
         .filter(on_outline)
         .map(ends)
         .collect()
+}
+
+/// Whether a layer follows the surface round this edge, and its faces are not one plane.
+fn is_bent(field: &SupportField, sides: &[HalfEdge]) -> bool {
+    let normal = |h: &HalfEdge| field.mesh.normal(h.face as usize);
+    let apart = |h: &HalfEdge| normal(h).distance(normal(&sides[0])) > PLANE;
+    field.is_shell(sides[0].face) && sides.iter().any(apart)
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.

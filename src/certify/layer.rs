@@ -1,0 +1,71 @@
+//! Whether every relief stays in its layer and keeps the depth order of its model, looked at once more on the finished relief.
+//!
+//! Takes the view map, target and groups of a view with its relief. Over one cell the inverse depths of relief and layer are both
+//! affine in the image (see `groups`), so that cell corners decide for the whole cell; sides' ends decide for sides where
+//! sheets meet. Neither the program's rows nor its solution are used.
+
+use crate::groups::{Groups, anchor, layer_in};
+use crate::relief::Relief;
+use crate::viewmap::{SupportField, Target, ViewMap};
+
+/// Sheets of the model nearer than this along a side hang together there, millimetres: merging thin cells moves them by as
+/// much.
+const TOGETHER_MM: f64 = 0.02;
+/// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
+const EQUAL_MM: f64 = 1e-6;
+
+/// How far the relief leaves its layer anywhere, millimetres along the ray.
+pub fn bound_violation_mm(
+    map: &ViewMap,
+    field: &SupportField,
+    groups: &Groups,
+    relief: &Relief,
+) -> f64 {
+    let mut worst = 0.0f64;
+    for (c, cell) in map.cells.iter().enumerate() {
+        let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
+        let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
+            continue;
+        };
+        for (q, z) in map.triangle(c).into_iter().zip(depths) {
+            let (near, far) = layer_in(map, field, &slab, c, q);
+            worst = worst.max((near - z).max(z - far) * map.plane.direction(q).length());
+        }
+    }
+    worst
+}
+
+/// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same
+/// support.
+pub fn order_inversions(map: &ViewMap, target: &Target, relief: &Relief) -> usize {
+    let mut count = 0;
+    for (c, cell) in map.cells.iter().enumerate() {
+        for k in 0..3 {
+            let Some(n) = map.neighbours[c][k].filter(|n| *n as usize > c) else {
+                continue;
+            };
+            let other = &map.cells[n as usize];
+            let (Some(here), Some(there)) = (relief.depth[c], relief.depth[n as usize]) else {
+                continue;
+            };
+            let (Some(f), Some(g)) = (cell.face, other.face) else {
+                continue;
+            };
+            if cell.support != other.support || f == g {
+                continue;
+            }
+            for end in [k, (k + 1) % 3] {
+                let p = cell.corners[end];
+                let Some(j) = other.corners.iter().position(|x| *x == p) else {
+                    continue;
+                };
+                let q = map.points[p as usize];
+                let [a, b] = [f, g].map(|f| anchor(target, f as usize, q).1);
+                let apart = (a - b).abs() > TOGETHER_MM;
+                let step = (here[end] - there[j]) * map.plane.direction(q).length();
+                count += usize::from(apart && step * (a - b) < -EQUAL_MM * (a - b).abs());
+            }
+        }
+    }
+    count
+}
