@@ -5,6 +5,7 @@ mod cli;
 mod diagram;
 mod formats;
 mod golden;
+mod guarantees;
 mod hostile;
 mod lights;
 mod meshes;

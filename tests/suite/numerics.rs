@@ -247,7 +247,7 @@ fn without_binding_bounds_the_model_itself_is_the_optimum() {
             "{energy:?}: {:e}",
             outcome.spread()
         );
-        assert!(outcome.depths.solved.objective.abs() < 1e-8);
+        assert!(outcome.depths.solved.optimality.objective.abs() < 1e-8);
         assert_eq!(outcome.relief.clamp_mm, 0.0);
     }
 }
@@ -258,7 +258,7 @@ fn a_tight_layer_changes_the_shape() {
         let outcome = Setting::tight().solved(energy);
         assert!(outcome.groups.groups.len() >= 3);
         assert!(outcome.spread() > 0.01, "{energy:?}");
-        assert!(outcome.depths.solved.active > 10);
+        assert!(outcome.depths.solved.optimality.active > 10);
     }
 }
 
@@ -368,8 +368,8 @@ fn rotation_scale_and_translation_of_everything_change_nothing() {
                 .map(|v| (before.depths.s[v] / after.depths.s[v] - 1.0).abs());
             let change = change.fold(0.0, f64::max);
             let (a, b) = (
-                before.depths.solved.objective,
-                after.depths.solved.objective,
+                before.depths.solved.optimality.objective,
+                after.depths.solved.optimality.objective,
             );
             let [in_depth, in_energy] = tolerances;
             assert!(change < in_depth, "{energy:?} {by}: {change:e}");
@@ -520,9 +520,13 @@ fn a_contradiction_names_a_row_of_it() {
     assert_eq!(error.to_string(), "no depths satisfy all bounds");
     program.rows.pop();
     program.rows.push(row(RowKind::Near(8), 1, -1.0, -0.5));
-    let (u, solved) = solve(&program).expect("a solution");
+    let solution = solve(&program).expect("a solution");
+    let (u, solved) = (solution.u, solution.solved);
     assert!(u[0].abs() < 1e-6 && (u[1] - 0.5).abs() < 1e-6, "{u:?}");
-    assert_eq!((solved.variables, solved.rows, solved.active), (2, 3, 1));
+    assert_eq!(
+        (solved.variables, solved.rows, solved.optimality.active),
+        (2, 3, 1)
+    );
 }
 
 #[test]

@@ -138,11 +138,10 @@ fn torn_surfaces_keep_the_normals() {
 
 #[test]
 fn every_corner_stays_in_its_layer() {
-    // Within steep faces linear bounds leave a little to the clamp.
-    for (setting, most) in settings().into_iter().zip([1e-3, 5e-3]) {
+    for setting in settings() {
         let (torn, relief) = torn_with(&setting, &STEPS);
         let field = SupportField::new(&setting.supports);
-        assert!(relief.clamp_mm < most, "clamped by {} mm", relief.clamp_mm);
+        assert!(relief.clamp_mm < 1e-6, "clamped by {} mm", relief.clamp_mm);
         for (c, depth) in relief.depth.iter().enumerate() {
             let (Some(depth), Some(support)) = (depth, torn.map.cells[c].support) else {
                 continue;
@@ -184,9 +183,8 @@ fn sheets_keep_their_order_along_contours() {
         }
     }
     assert!(met > 100, "{met} ends of contours");
-    // Orders are linear in log depth: within faces that bend much, as strips given away do, a little is left.
     assert!(
-        worst < CONTOUR_MM,
+        worst < 1e-6,
         "a front sheet lies {worst} mm behind its back sheet"
     );
 }
