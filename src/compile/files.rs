@@ -11,6 +11,7 @@ use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
 use crate::support::SupportKind;
 use crate::view::View;
+use glam::DVec2;
 
 /// Grey of base and bare pillars in coloured files.
 const BARE_COLOUR: [u8; 3] = [198, 194, 186];
@@ -94,8 +95,9 @@ fn view_camera(view: &View) -> Camera {
     }
 }
 
-pub fn plan_files(scene: &Scene) -> Vec<OutputFile> {
-    let plan = plan(&scene.title, &scene.views, &scene.supports);
+/// `rooms` as in [`plan`].
+pub fn plan_files(scene: &Scene, rooms: &[Option<DVec2>]) -> Vec<OutputFile> {
+    let plan = plan(&scene.title, &scene.views, &scene.supports, rooms);
     vec![
         file("plan.svg", plan.svg().into_bytes()),
         file("plan.png", plan.png(scene.output.plan_width)),

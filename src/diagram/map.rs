@@ -10,9 +10,12 @@ use crate::diagram::sight::{Run, Sight};
 use crate::support::{Support, SupportKind};
 use crate::view::View;
 use glam::DVec2;
+use std::f64::consts::TAU;
 
 /// Half the width of the eye symbol, layout units.
 const EYE: f64 = 4.0;
+/// Corners of the ellipse to which an eye may move.
+const ROOM_CORNERS: usize = 72;
 
 pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.rect(DVec2::ZERO, page.size(), Some(PAPER), None);
@@ -246,6 +249,37 @@ fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         eye_symbol(drawing, at, EYE * page.u, view.colour);
         label(drawing, page, view, at, -ahead, *far, &mut taken);
     }
+    for (((view, room), (stand, _)), &ahead) in
+        facts.views.iter().zip(facts.rooms).zip(&stands).zip(&ways)
+    {
+        if let Some(room) = room {
+            room_of_eye(drawing, page.place(*stand), *room, ahead, view.colour);
+        }
+    }
+}
+
+/// The places to which an eye may move with its picture still one, at true scale: over the eye's symbol, which is often larger.
+fn room_of_eye(drawing: &mut Drawing, at: DVec2, room: DVec2, ahead: DVec2, colour: [u8; 3]) {
+    let point = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / ROOM_CORNERS as f64).sin_cos();
+        at + room.x * cos * ahead.perp() + room.y * sin * ahead
+    };
+    let outline: Vec<DVec2> = (0..ROOM_CORNERS).map(point).collect();
+    let pen = |ink, width| Some(Pen::new(ink, width));
+    drawing.polygon(
+        &outline,
+        None,
+        pen(PAPER, 0.1 * room.min_element().clamp(4.0, 10.0)),
+    );
+    let ink = Ink::new(colour).fade(0.3);
+    drawing.polygon(
+        &outline,
+        Some(ink),
+        pen(
+            deep(colour, 0.5),
+            0.05 * room.min_element().clamp(4.0, 10.0),
+        ),
+    );
 }
 
 /// From the eye towards what it looks at; with a break if the eye is further away than drawn.
