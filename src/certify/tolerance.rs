@@ -8,16 +8,18 @@
 //!
 //! A side of the view map with ends in the unit directions `u`, `v` spans a plane with the eye; `n = u x v / |u x v|` is its
 //! normal. On both sides of it the relief lies in that plane, at distances `a` and `b` from the eye. Seen from an eye that
-//! moves by the vector `e`, a point at distance `a` stands off the plane by the angle `-n . e / a`, to first order in `|e| / a`. So the
-//! two edges part by
+//! moves by the vector `e`, a point at distance `a` in the direction `u` stands off the plane by the angle
+//! `-asin(n . e / |a u - e|)`. So the two edges part by
 //!
 //! ```text
-//! |n . e| |1/a - 1/b|
+//! |asin(n . e / |a u - e|) - asin(n . e / |b u - e|)|  =  |n . e| |1/a - 1/b|  to first order in |e| / a
 //! ```
 //!
 //! square to the side; sliding along it opens nothing. That holds for every `e`: sideways (`e` along the image's right), up, and
-//! forward, where `n . e` is small because it only grows with the side's distance from the middle of the image. Along a
-//! side `1/a` and `1/b` are affine in the image but for the length of the ray, so that its ends are the worst to second order.
+//! forward, where `n . e` is small because it only grows with the side's distance from the middle of the image. The linear form
+//! tells where to look, the exact one how far the eye may go: moving forward by a third of the way opens a cut three times as wide as the
+//! linear form has it. Along a side `1/a` and `1/b` are affine in the image but for the length of the ray, so that its ends are the
+//! worst to second order.
 //!
 //! # What counts
 //!
@@ -52,14 +54,19 @@ use crate::view::View;
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 use serde::Serialize;
-use sides::{Critical, Side, critical, sides};
+use sides::{LEAST, Side, critical, sides};
 
 /// An opening that does not break the picture yet, radians: ten arc-minutes, a third of the moon.
 pub const ONE_PICTURE_RAD: f64 = 5.0 * UNSEEN_RAD;
 /// Between the pupils of grown-up people, millimetres: the mean is 63, most lie between 54 and 74.
 pub const EYES_MM: f64 = 65.0;
-/// Halvings of the interval in which the distance for two eyes lies: from metres to micrometres.
-const HALVINGS: usize = 32;
+/// Halvings of the interval in which a distance lies: from metres to thousandths of a millimetre.
+const HALVINGS: usize = 20;
+/// Sides that open by less than this share of the worst one's rate are not looked at exactly: an eye would have to come four times
+/// nearer to a cut for it to open sixteen times as fast.
+const FAR_FROM_WORST: f64 = 1.0 / 16.0;
+/// The exact movement is at most this times the linear one: by then the eye has moved by more than half its distance.
+const SLOWER: f64 = 1.5;
 /// The eyes are never brought nearer to the nearest piece than this share of its distance.
 const NEAREST_SHARE: f64 = 0.1;
 /// Farther than this the two eyes are not sought, millimetres: a kilometre.
@@ -110,11 +117,24 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// The angle by which the cut opens, or its pieces overlap, if the eye moves by `e`: radians, to first order.
+    /// The angle by which the cut opens, or its pieces overlap, if the eye moves by `e`: radians, exactly.
     pub fn opening(&self, e: DVec3) -> f64 {
-        let [a, b] = self.distances;
-        self.normal.dot(e).abs() * crate::geom::parallax(a, b)
+        parting(self.direction, self.normal, self.distances, e).abs()
     }
+}
+
+/// By how much two points in the unit direction `u` part across the plane with the unit normal `n`, if the eye moves by `e`; see
+/// the module. Radians, positive if the first is the nearer one and `n . e > 0`.
+fn parting(u: DVec3, n: DVec3, distances: [f64; 2], e: DVec3) -> f64 {
+    let [a, b] = distances.map(|a| (n.dot(e) / (a * u - e).length()).clamp(-1.0, 1.0).asin());
+    a - b
+}
+
+/// An angle, worked out and measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Confirmed {
+    pub predicted_arcmin: f64,
+    pub measured_arcmin: f64,
 }
 
 /// Where the allowed movement ends.
@@ -129,13 +149,12 @@ pub struct WorstCut {
     pub place_mm: [f64; 3],
     /// Of both pieces; the same twice at a tear.
     pub supports: [String; 2],
-    /// By the closed form in the middle of the side: at most the angle allowed.
-    pub predicted_arcmin: f64,
-    /// By rays at the finished forest, moving one way and the other: a gap the one way, hidden surface the other.
+    /// In the middle of the side, by the closed form and by rays at the finished forest: what opens if the eye moves one way,
+    /// and what is hidden if it moves the other.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub gap_arcmin: Option<f64>,
+    pub gap: Option<Confirmed>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub overlap_arcmin: Option<f64>,
+    pub overlap: Option<Confirmed>,
     #[serde(skip)]
     pub cut: Cut,
 }
@@ -165,11 +184,8 @@ pub fn tolerance(
     let mut worst_cuts = Vec::new();
     let mut movement = |angle: f64| {
         let [side, up, fore] = Way::ALL.map(|way| {
-            let axis = way.axis(plane);
-            let rate = |s: &Side| s.normal.dot(axis).abs() * s.excess(0.0);
-            let found = critical(&sides, map.points.len(), rate, angle)?;
-            let moved = angle / found.rate;
-            worst_cuts.push(worst(&sides, found, way, angle, plane, supports));
+            let (moved, side) = movement_until(&sides, map.points.len(), way.axis(plane), angle)?;
+            worst_cuts.push(worst(&side, way, moved, angle, plane, supports));
             Some(moved)
         });
         Movement { side, up, fore }
@@ -184,26 +200,49 @@ pub fn tolerance(
     }
 }
 
+/// How far the eye may move along `axis` and against it until the worst cut opens by `angle`, and that cut's longest side. `points`
+/// is the number of the map's image points.
+fn movement_until(sides: &[Side], points: usize, axis: DVec3, angle: f64) -> Option<(f64, Side)> {
+    let rate = |s: &Side| s.normal.dot(axis).abs() * s.excess(0.0);
+    let first = critical(sides, points, rate, angle).filter(|c| c.rate > LEAST)?;
+    let linear = angle / first.rate;
+    let near = sides
+        .iter()
+        .filter(|s| rate(s) >= FAR_FROM_WORST * first.rate);
+    let near: Vec<Side> = near.copied().collect();
+    let at = |moved: f64| {
+        let open = |s: &Side| s.opening(moved * axis).max(s.opening(-moved * axis));
+        critical(&near, points, open, angle).filter(|c| c.rate >= angle)
+    };
+    // Moving square to the ray opens a little less than linear, moving towards the cut more.
+    let (mut low, mut high, mut found) = (0.0, SLOWER * linear, sides[first.side]);
+    for _ in 0..HALVINGS {
+        let middle = (low + high) / 2.0;
+        match at(middle) {
+            Some(worst) => (high, found) = (middle, near[worst.side]),
+            None => low = middle,
+        }
+    }
+    Some((high, found))
+}
+
 fn worst(
-    sides: &[Side],
-    found: Critical,
+    side: &Side,
     movement: Way,
+    moved_mm: f64,
     angle: f64,
     plane: &ImagePlane,
     supports: &[Support],
 ) -> WorstCut {
-    let side = &sides[found.side];
     let cut = side.cut();
-    let moved_mm = angle / found.rate;
     WorstCut {
         movement,
         angle_arcmin: arcmin(angle),
         moved_mm,
         place_mm: (plane.eye + cut.distances[0] * cut.direction + 0.0).to_array(),
         supports: side.supports.map(|s| supports[s as usize].name.clone()),
-        predicted_arcmin: arcmin(cut.opening(moved_mm * movement.axis(plane))),
-        gap_arcmin: None,
-        overlap_arcmin: None,
+        gap: None,
+        overlap: None,
         cut,
     }
 }
@@ -249,8 +288,17 @@ pub fn confirm(tolerance: &mut Tolerance, plane: &ImagePlane, forest: &TriMesh, 
     for worst in &mut tolerance.worst_cuts {
         let e = worst.moved_mm * worst.movement.axis(plane);
         let [one, other] = [e, -e].map(|e| opened(&worst.cut, plane.eye, e, forest, bvh));
-        worst.gap_arcmin = Some(arcmin(one.gap.max(other.gap)));
-        worst.overlap_arcmin = Some(arcmin(one.overlap.max(other.overlap)));
+        let confirmed = |e: DVec3, measured: f64| Confirmed {
+            predicted_arcmin: arcmin(worst.cut.opening(e)),
+            measured_arcmin: arcmin(measured),
+        };
+        let (apart, gap, overlap) = if one.gap >= other.gap {
+            (e, one.gap, other.overlap)
+        } else {
+            (-e, other.gap, one.overlap)
+        };
+        worst.gap = Some(confirmed(apart, gap));
+        worst.overlap = Some(confirmed(-apart, overlap));
     }
 }
 

@@ -11,7 +11,6 @@ use crate::diagram::curves::{Curve, curves};
 use crate::scene::Scene;
 use crate::support::SupportKind;
 use crate::view::View;
-use glam::DVec2;
 use rayon::prelude::*;
 
 /// The tolerance of every view, confirmed by rays at the forest, whose `bvh` is given.
@@ -31,11 +30,11 @@ pub fn tolerances(
     sights.par_iter().zip(shapes).map(of_view).collect()
 }
 
-/// How far eyes may move sideways and fore and aft with the picture still one, millimetres; none where nothing ever opens.
-pub fn rooms(tolerances: &[Tolerance]) -> Vec<Option<DVec2>> {
+/// How far eyes may move on the level with the picture still one, millimetres; none where nothing ever opens.
+pub fn rooms(tolerances: &[Tolerance]) -> Vec<Option<f64>> {
     let room = |t: &Tolerance| {
         let Movement { side, fore, .. } = t.one_picture_mm;
-        side.zip(fore).map(|(side, fore)| DVec2::new(side, fore))
+        side.into_iter().chain(fore).reduce(f64::min)
     };
     tolerances.iter().map(room).collect()
 }

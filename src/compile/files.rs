@@ -11,7 +11,6 @@ use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
 use crate::support::SupportKind;
 use crate::view::View;
-use glam::DVec2;
 
 /// Grey of base and bare pillars in coloured files.
 const BARE_COLOUR: [u8; 3] = [198, 194, 186];
@@ -96,7 +95,7 @@ fn view_camera(view: &View) -> Camera {
 }
 
 /// `rooms` as in [`plan`].
-pub fn plan_files(scene: &Scene, rooms: &[Option<DVec2>]) -> Vec<OutputFile> {
+pub fn plan_files(scene: &Scene, rooms: &[Option<f64>]) -> Vec<OutputFile> {
     let plan = plan(&scene.title, &scene.views, &scene.supports, rooms);
     vec![
         file("plan.svg", plan.svg().into_bytes()),

@@ -30,11 +30,11 @@ const RIGHT: f64 = 194.0;
 const TOP: f64 = 25.0;
 const BOTTOM: f64 = 113.0;
 /// Top of the table below, height of a row, and room below the last one.
-const TABLE: f64 = 134.0;
+const TABLE: f64 = 138.0;
 const ROW: f64 = 5.6;
 const BELOW: f64 = 5.0;
 
-const TICKS_DEG: [f64; 10] = [0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0, 90.0, 135.0, 180.0];
+const TICKS_DEG: [f64; 9] = [0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0, 90.0, 180.0];
 /// Where the axis of angles turns from linear to logarithmic, degrees.
 const KNEE_DEG: f64 = 2.0;
 /// Columns of the table: name, then the right edges of likeness at the eye, half angle, worst angle, likeness there.
@@ -127,15 +127,15 @@ fn frame(drawing: &mut Drawing, scale: &Scale) {
     let half = [scale.place(0.0, 0.5), scale.place(180.0, 0.5)];
     drawing.polyline(&half, Pen::new(TEXT, 0.3).dashed(1.6, 1.4));
     drawing.text(
-        half[1] + DVec2::new(-1.0, -1.4),
+        half[0] + DVec2::new(1.2, -1.4),
         "half",
         TextStyle {
             ink: TEXT,
-            anchor: Anchor::End,
+            anchor: Anchor::Start,
             ..label
         },
     );
-    let below = DVec2::new((LEFT + RIGHT) / 2.0, BOTTOM + 11.0);
+    let below = DVec2::new((LEFT + RIGHT) / 2.0, BOTTOM + 10.5);
     drawing.text(
         below,
         "angle from the view's eye, about the model's middle",

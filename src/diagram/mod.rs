@@ -20,7 +20,6 @@ use crate::diagram::drawing::Drawing;
 use crate::diagram::page::Page;
 use crate::support::{Support, SupportKind};
 use crate::view::View;
-use glam::DVec2;
 
 /// A finished page.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +49,8 @@ struct Facts<'a> {
     sights: Vec<Sight>,
     /// For every support the view that sees most of it, if any does.
     owners: Vec<Option<usize>>,
-    /// How far every eye may move sideways and fore and aft, millimetres; empty if that is not known.
-    rooms: &'a [Option<DVec2>],
+    /// How far every eye may move, millimetres; empty if that is not known.
+    rooms: &'a [Option<f64>],
 }
 
 impl Facts<'_> {
@@ -63,9 +62,9 @@ impl Facts<'_> {
     }
 }
 
-/// Draws the visibility map of a scene. `rooms` are how far every view's eye may move sideways and fore and aft before its picture
-/// breaks, millimetres; empty if nothing was built yet.
-pub fn plan(title: &str, views: &[View], supports: &[Support], rooms: &[Option<DVec2>]) -> Plan {
+/// Draws the visibility map of a scene. `rooms` are how far every view's eye may move before its picture breaks,
+/// millimetres; empty if nothing was built yet.
+pub fn plan(title: &str, views: &[View], supports: &[Support], rooms: &[Option<f64>]) -> Plan {
     let sights: Vec<Sight> = views.iter().map(|v| Sight::new(v, supports)).collect();
     let owners = (0..supports.len()).map(|k| owner(&sights, k)).collect();
     let facts = Facts {

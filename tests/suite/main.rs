@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod camouflage;
 mod cli;
 mod diagram;
 mod formats;
@@ -15,4 +16,5 @@ mod scene;
 mod scenes;
 mod shapes;
 mod steps;
+mod tolerance;
 mod visibility;

@@ -1,8 +1,8 @@
 //! Openings of a finished forest, measured by rays.
 //!
 //! What an eye that moved should not see is what the eye in its place did not: walls along the rays, backs, what lies behind. A
-//! *gap* is the angle over which it does. What it should see but does not, is hidden behind a nearer piece: an *overlap* is the
-//! angle, seen from the eye in its place, over which that is so. Both are the same question with the eyes changing places, asked
+//! *gap* is the angle over which it does. What it should see but does not is hidden behind a nearer piece: an *overlap* is the
+//! angle over which the eye in its place sees what the other does not. Both are the same question with the eyes changing places, asked
 //! with a fan of rays across the cut.
 
 use super::Cut;
@@ -27,7 +27,7 @@ pub struct Opened {
     pub overlap: f64,
 }
 
-/// What opens at a cut if the eye moves from `home` by `e`.
+/// What opens at a cut, as seen by the eye that moved, if it moves from `home` by `e`.
 pub fn opened(cut: &Cut, home: DVec3, e: DVec3, forest: &TriMesh, bvh: &Bvh) -> Opened {
     let expected = cut.opening(e);
     if expected.is_nan() || expected <= 0.0 {
@@ -38,9 +38,11 @@ pub fn opened(cut: &Cut, home: DVec3, e: DVec3, forest: &TriMesh, bvh: &Bvh) -> 
     let seen_from = |from: DVec3| edges.map(|p| (p - from).normalize());
     let sight = Sight { forest, bvh };
     let [a, b] = seen_from(moved);
+    let hidden = sight.unseen([home, moved], cut.direction, cut.normal, expected);
     Opened {
         gap: sight.unseen([moved, home], a + b, cut.normal, expected),
-        overlap: sight.unseen([home, moved], cut.direction, cut.normal, expected),
+        // As wide as the eye that moved would see it.
+        overlap: hidden * cut.distances[1] / edges[1].distance(moved),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sides of a view map at which an eye that moves sees its pieces part, and the worst of them that is more than a speck.
 
-use super::Cut;
+use super::{Cut, parting};
 use crate::geom::parallax;
 use crate::groups::anchor;
 use crate::mesh::DisjointSets;
@@ -9,7 +9,7 @@ use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 
 /// Sides that open by less for each millimetre of movement are left out, 1/mm: they would take an eye hundreds of metres.
-const LEAST: f64 = 1e-9;
+pub const LEAST: f64 = 1e-9;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +28,21 @@ pub struct Side {
 }
 
 impl Side {
-    /// By how much more the relief parts than the model at the worse end, for an eye `back` millimetres farther away: 1/mm.
+    /// By how much more the relief parts than the model at the worse end, radians for each millimetre that an eye `back`
+    /// millimetres farther away moves square to the side.
     pub fn excess(&self, back: f64) -> f64 {
+        self.beyond_the_model(|_, [a, b]| parallax(a + back, b + back))
+    }
+
+    /// The same for an eye that moves by `e`: radians, exactly.
+    pub fn opening(&self, e: DVec3) -> f64 {
+        self.beyond_the_model(|end, distances| parting(end, self.normal, distances, e))
+    }
+
+    /// The larger excess at the two ends (unit directions) of what `parted` gives for two distances there.
+    fn beyond_the_model(&self, parted: impl Fn(DVec3, [f64; 2]) -> f64) -> f64 {
         let at = |k: usize| {
-            let of = |[a, b]: [f64; 2]| parallax(a + back, b + back);
+            let of = |distances| parted(self.ends[k], distances);
             let (relief, model) = (of(self.relief[k]), of(self.model[k]));
             // Only what the model opens in the same order is the model's own.
             let own = (model * relief.signum()).max(0.0);
