@@ -43,7 +43,8 @@ pub const ANGLES_DEG: [f64; 15] = [
 const RAISED_DEG: [f64; 3] = [0.0, 15.0, -15.0];
 /// Eyes are not raised beyond this elevation, degrees: looking straight down there is no upright image.
 const STEEPEST_DEG: f64 = 85.0;
-/// Rays across the frame.
+/// Rays across the frame. On the reference forest mean errors are within 1.2 degrees of those at 128 rays, by another program; the time
+/// grows with the square.
 const SIDE: usize = 72;
 
 /// What is left of a view's likeness at one angle from its eye.

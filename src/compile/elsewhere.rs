@@ -13,6 +13,9 @@ use crate::support::SupportKind;
 use crate::view::View;
 use rayon::prelude::*;
 
+/// Width of camouflage.png, pixels.
+const CAMOUFLAGE_PX: u32 = 1600;
+
 /// The tolerance of every view, confirmed by rays at the forest, whose `bvh` is given.
 pub fn tolerances(
     scene: &Scene,
@@ -71,6 +74,3 @@ pub fn camouflage_files(scene: &Scene, found: &[Camouflage]) -> Vec<OutputFile> 
         file("camouflage.png", drawing.png(CAMOUFLAGE_PX)),
     ]
 }
-
-/// Width of camouflage.png, pixels.
-const CAMOUFLAGE_PX: u32 = 1600;

@@ -186,7 +186,9 @@ fn a_scene_may_do_without_camouflage_but_not_without_tolerance() {
     assert!((first["mean_error_deg"].as_f64().unwrap() - own).abs() < 1.0);
     let view = &report["views"][0];
     let [unseen, one] = ["eye_tolerance_mm", "one_picture_mm"].map(|k| view[k]["side"].as_f64());
-    assert!((one.unwrap() / unseen.unwrap() - 5.0).abs() < 0.1);
+    // Five times as far but for specks, which may be longer.
+    let ratio = one.unwrap() / unseen.unwrap();
+    assert!((4.8..10.0).contains(&ratio), "{unseen:?} {one:?}");
     assert!(view["stereo_distance_mm"].as_f64().unwrap() > 300.0);
     let gap = &view["worst_cuts"][0]["gap"];
     let [predicted, measured] = ["predicted_arcmin", "measured_arcmin"].map(|k| gap[k].as_f64());

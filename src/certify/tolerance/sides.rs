@@ -18,7 +18,8 @@ pub struct Side {
     points: [u32; 2],
     /// Of the cells on both sides.
     pub supports: [u32; 2],
-    /// Unit directions of the ends.
+    /// Directions of the ends, one long along the forward axis, and unit ones.
+    rays: [DVec3; 2],
     ends: [DVec3; 2],
     /// Unit normal of the plane through eye and side.
     pub normal: DVec3,
@@ -58,10 +59,13 @@ impl Side {
 
     /// In the middle of the side.
     pub fn cut(&self) -> Cut {
+        let middle = (self.rays[0] + self.rays[1]) / 2.0;
+        // Depths along the forward axis are harmonic along the side.
+        let nearness = |k: usize, cell: usize| self.rays[k].length() / self.relief[k][cell];
         let [a, b] =
-            [0, 1].map(|cell| 2.0 / (1.0 / self.relief[0][cell] + 1.0 / self.relief[1][cell]));
+            [0, 1].map(|cell| 2.0 * middle.length() / (nearness(0, cell) + nearness(1, cell)));
         Cut {
-            direction: (self.ends[0] + self.ends[1]).normalize(),
+            direction: middle.normalize(),
             normal: self.normal,
             distances: [a.min(b), a.max(b)],
         }
@@ -113,6 +117,7 @@ fn side(
     Some(Side {
         points,
         supports,
+        rays,
         ends,
         normal: ends[0].cross(ends[1]).try_normalize()?,
         relief: of_relief,
