@@ -116,7 +116,12 @@ pub fn camera(view: &View) -> (ImagePlane, f64) {
     let middle = target
         .bounds()
         .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0);
-    let plane = ImagePlane::looking_at(view.eye, middle);
+    framing(view.eye, &target, middle)
+}
+
+/// The same for any eye and mesh: looking at `middle`, with all of the mesh in the picture that lies before the eye.
+pub fn framing(eye: DVec3, target: &TriMesh, middle: DVec3) -> (ImagePlane, f64) {
+    let plane = ImagePlane::looking_at(eye, middle);
     let reach = target
         .vertices
         .iter()
@@ -174,7 +179,7 @@ impl Look {
 }
 
 /// Exact for small angles, unlike the arc cosine; 90 if either is no direction.
-fn angle_deg(a: DVec3, b: DVec3) -> f64 {
+pub fn angle_deg(a: DVec3, b: DVec3) -> f64 {
     if a == DVec3::ZERO || b == DVec3::ZERO {
         90.0
     } else {

@@ -3,6 +3,8 @@
 //! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
+use crate::certify::camouflage::Camouflage;
+use crate::certify::tolerance::Tolerance;
 use crate::mesh::Solid;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
@@ -19,6 +21,9 @@ pub struct Report {
     pub views: Vec<ViewReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solid: Option<SolidReport>,
+    /// What eyes elsewhere recognise, one for each view.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub camouflage: Vec<Camouflage>,
     pub warnings: Vec<String>,
     /// Only on request: it differs from run to run.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,6 +95,9 @@ pub struct ViewReport {
     /// How the view looks under suns and under an overcast sky, shadows included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights: Option<Vec<LightLikeness>>,
+    /// How far the eye may move, and from where two eyes see one object.
+    #[serde(flatten)]
+    pub tolerance: Option<Tolerance>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -94,8 +94,9 @@ fn view_camera(view: &View) -> Camera {
     }
 }
 
-pub fn plan_files(scene: &Scene) -> Vec<OutputFile> {
-    let plan = plan(&scene.title, &scene.views, &scene.supports);
+/// `rooms` as in [`plan`].
+pub fn plan_files(scene: &Scene, rooms: &[Option<f64>]) -> Vec<OutputFile> {
+    let plan = plan(&scene.title, &scene.views, &scene.supports, rooms);
     vec![
         file("plan.svg", plan.svg().into_bytes()),
         file("plan.png", plan.png(scene.output.plan_width)),

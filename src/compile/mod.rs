@@ -3,15 +3,18 @@
 //! Takes a resolved [`Scene`], gives the bytes of every output file; touches no file, clock or terminal.
 //! Views are independent until the solids are united and run in parallel; nothing depends on the thread count.
 
+mod elsewhere;
 mod files;
 mod pictures;
 mod sight;
 mod summary;
 
+use crate::bvh::Bvh;
 use crate::carve::{Forest, ViewRelief, carve};
 use crate::diag::Diagnostic;
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
+use elsewhere::{camouflage_files, camouflages, rooms, tolerances};
 use files::{counts, file, plan_files, printable_files, summary};
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
@@ -61,7 +64,7 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     if goal == Goal::Plan {
         progress("plan", 0.1);
         return Ok(Build {
-            files: plan_files(scene),
+            files: plan_files(scene, &[]),
             printable: true,
             summary: counts(scene),
             ..Build::default()
@@ -91,18 +94,33 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
     warnings.extend(loose(&forest));
     progress("pictures", 0.75);
-    let pictures = pictures(scene, &shapes, &forest);
-    let report = report(
+    let bvh = Bvh::new(forest.whole.mesh());
+    let pictures = pictures(scene, &shapes, &forest, &bvh);
+    progress("eyes elsewhere", 0.85);
+    let tolerances = tolerances(scene, &sights, &shapes, &forest, &bvh);
+    let camouflage = if goal == Goal::All && scene.output.camouflage {
+        camouflages(scene, &forest, &bvh)
+    } else {
+        Vec::new()
+    };
+    let mut report = report(
         scene, &field, &sights, &shapes, &forest, &pictures, &warnings,
     );
+    for (view, found) in report.views.iter_mut().zip(&tolerances) {
+        view.tolerance = Some(found.clone());
+    }
     progress("files", 0.9);
     let summary = summary(scene, &forest, &pictures);
     let mut files = Vec::new();
     if goal == Goal::All {
         files.extend(printable_files(scene, &forest));
         if scene.output.plan {
-            files.extend(plan_files(scene));
+            files.extend(plan_files(scene, &rooms(&tolerances)));
         }
+        if !camouflage.is_empty() {
+            files.extend(camouflage_files(scene, &camouflage));
+        }
+        report.camouflage = camouflage;
         files.push(file("report.json", report.json().into_bytes()));
     }
     let views = goal == Goal::Pictures || scene.output.views;

@@ -3,7 +3,7 @@
 use crate::diagram::Facts;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::lettering::{Face, width};
-use crate::diagram::map::eye_symbol;
+use crate::diagram::map::{eye_symbol, room_of_eye};
 use crate::diagram::page::{
     BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale,
 };
@@ -28,6 +28,9 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     table(drawing, page, facts);
     overview(drawing, page, facts);
     key(drawing, page);
+    if facts.rooms.iter().any(Option::is_some) {
+        key_of_rooms(drawing, page);
+    }
     scale_bar(drawing, page);
 }
 
@@ -192,6 +195,21 @@ fn key(drawing: &mut Drawing, page: &Page) {
         Pen::new(RED, 0.55 * page.u),
     );
     drawing.text(page.at(115.0, y), "relief, front to back", style);
+}
+
+/// What the discs at the eyes are.
+fn key_of_rooms(drawing: &mut Drawing, page: &Page) {
+    let y = page.bottom() - 19.0;
+    room_of_eye(
+        drawing,
+        page,
+        page.at(15.0, y - 1.1),
+        2.0 * page.u,
+        [0x8A, 0x8F, 0x94],
+    );
+    let style = page.style(3.0, Face::Light, TEXT, Anchor::Start);
+    let text = "disc at an eye: as far as it may move with its picture still one (cuts open by 10 arc-minutes)";
+    drawing.text(page.at(20.0, y), text, style);
 }
 
 /// A bar of a round length near half the forest's radius, with its tenths or fifths.

@@ -232,20 +232,36 @@ fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         .collect();
     let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
     let mut taken: Vec<Block> = Vec::new();
-    for ((stand, _), ahead) in stands.iter().zip(&ways) {
+    let room = |k: usize| facts.rooms.get(k).copied().flatten();
+    for (k, ((stand, _), ahead)) in stands.iter().zip(&ways).enumerate() {
         let at = page.place(*stand);
         taken.push(Block::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
+        taken.extend(room(k).map(|r| Block::around(at, DVec2::splat(r))));
         taken.push(Block::around(
             at + 10.0 * page.u * *ahead,
             DVec2::splat(1.2 * page.u) + 5.0 * page.u * ahead.abs(),
         ));
     }
-    for ((view, (stand, far)), &ahead) in facts.views.iter().zip(&stands).zip(&ways) {
+    let views = facts.views.iter().zip(&stands).zip(&ways);
+    for (k, ((view, (stand, far)), &ahead)) in views.enumerate() {
         let at = page.place(*stand);
         arrow(drawing, page, at, ahead, *far, view.colour);
         eye_symbol(drawing, at, EYE * page.u, view.colour);
-        label(drawing, page, view, at, -ahead, *far, &mut taken);
+        let mut clear = EYE;
+        if let Some(room) = room(k) {
+            room_of_eye(drawing, page, at, room, view.colour);
+            clear = clear.max(room / page.u + 0.6);
+        }
+        label(drawing, page, view, (at, clear), -ahead, *far, &mut taken);
     }
+}
+
+/// The places to which an eye may move with its picture still one, at true scale: over the eye's symbol, which is often larger.
+pub fn room_of_eye(drawing: &mut Drawing, page: &Page, at: DVec2, room: f64, colour: [u8; 3]) {
+    let rim = |ink, width: f64| Some(Pen::new(ink, width * page.u));
+    let ink = Ink::new(colour).fade(0.25);
+    drawing.circle(at, room, None, rim(PAPER, 0.7));
+    drawing.circle(at, room, Some(ink), rim(deep(colour, 0.5), 0.3));
 }
 
 /// From the eye towards what it looks at; with a break if the eye is further away than drawn.
@@ -304,12 +320,12 @@ pub fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
     drawing.circle(at, 0.18 * r, Some(TEXT), None);
 }
 
-/// Name and distance beside the eye, on the first side where there is room.
+/// Name and distance beside the eye, on the first side where there is room, and at least `clear` layout units from it.
 fn label(
     drawing: &mut Drawing,
     page: &Page,
     view: &View,
-    at: DVec2,
+    (at, clear): (DVec2, f64),
     outward: DVec2,
     far: bool,
     taken: &mut Vec<Block>,
@@ -327,7 +343,7 @@ fn label(
         width(&view.name, name.size, name.face).max(width(&line, note.size, note.face)) / 2.0,
         4.3 * u,
     );
-    let offset = |d: DVec2| d * (half + DVec2::new(EYE + 0.8, 3.2) * u);
+    let offset = |d: DVec2| d * (half + DVec2::new(clear + 0.8, clear - 0.8) * u);
     // Above or below, whichever is further out, then the sides, then the corners.
     let vertical = DVec2::new(0.0, if outward.y < -0.35 { -1.0 } else { 1.0 });
     let horizontal = DVec2::new(if outward.x < 0.0 { -1.0 } else { 1.0 }, 0.0);

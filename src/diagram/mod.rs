@@ -4,6 +4,7 @@
 //! The forest is drawn at true scale (one unit of the SVG is one millimetre); eyes far outside of it stand at the rim
 //! with their distance written beside them, and a small overview shows them to scale.
 
+pub mod curves;
 pub mod drawing;
 mod footer;
 pub mod lettering;
@@ -48,6 +49,8 @@ struct Facts<'a> {
     sights: Vec<Sight>,
     /// For every support the view that sees most of it, if any does.
     owners: Vec<Option<usize>>,
+    /// How far every eye may move, millimetres; empty if that is not known.
+    rooms: &'a [Option<f64>],
 }
 
 impl Facts<'_> {
@@ -59,8 +62,9 @@ impl Facts<'_> {
     }
 }
 
-/// Draws the visibility map of a scene.
-pub fn plan(title: &str, views: &[View], supports: &[Support]) -> Plan {
+/// Draws the visibility map of a scene. `rooms` are how far every view's eye may move before its picture breaks,
+/// millimetres; empty if nothing was built yet.
+pub fn plan(title: &str, views: &[View], supports: &[Support], rooms: &[Option<f64>]) -> Plan {
     let sights: Vec<Sight> = views.iter().map(|v| Sight::new(v, supports)).collect();
     let owners = (0..supports.len()).map(|k| owner(&sights, k)).collect();
     let facts = Facts {
@@ -69,6 +73,7 @@ pub fn plan(title: &str, views: &[View], supports: &[Support]) -> Plan {
         supports,
         sights,
         owners,
+        rooms,
     };
     let page = Page::new(&facts);
     let mut drawing = Drawing::new(page.size());

@@ -18,3 +18,9 @@ pub fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     -2.0 * numerator.atan2(denominator)
 }
+
+/// How far two points on one ray of an eye, at distances `a` and `b` from it, part for each millimetre that the eye moves square to
+/// the ray: radians per millimetre, to first order; positive if `a` is the nearer one.
+pub fn parallax(a: f64, b: f64) -> f64 {
+    1.0 / a - 1.0 / b
+}

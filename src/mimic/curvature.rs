@@ -2,21 +2,23 @@
 //!
 //! Row of vertex `i`: `w_i / sqrt(A_i) * sum over j of c_ij v_j (s_j - s_i)`, three coordinates, `v_j` from the eye. With
 //! `s = lambda / lambda0` instead of `lambda` this is the same problem, better scaled; written in differences it is exactly
-//! zero for `s = 1`. Bounds are Eq 11. The gauge is a mean of 1 of the area-weighted `s` over each block of components and
-//! groups that hang together: the paper pins one vertex, but then the result depends on which.
+//! zero for `s = 1`. The unknowns are `s - 1` and `mu - 1` in units of a layer's typical width. Bounds are Eq 11. The gauge is a
+//! mean of 1 of the area-weighted `s` over each block of components and groups that hang together: the paper pins one vertex,
+//! but then the result depends on which.
 
 use super::conditions::{Condition, plain_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, gathered};
-use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles};
+use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles, typical_width};
 use crate::geom::solid_angle;
-use crate::groups::{Bound, Groups};
+use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
 use crate::mesh::DisjointSets;
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 
-/// Weight of `mu^2` relative to the mean diagonal (the paper's alpha): 1e-12 to 1e-7 give the same surface.
+/// Weight of `(mu - 1)^2` relative to the mean diagonal (the paper's alpha, about 1 instead of 0): 1e-12 to 1e-7 give the same
+/// surface.
 const ALPHA: f64 = 1e-9;
 
 /// Depths of the whole mesh under `conditions`, of which the first `rows` are rows from the start and the others only where
@@ -29,12 +31,7 @@ pub fn depths(
     conditions: &[Condition],
     rows: usize,
 ) -> Result<Depths, SolveError> {
-    let width = |b: &Bound| (b.upper / b.lower).ln();
-    let widest = groups.bounds.iter().map(width).fold(0.0, f64::max);
-    let conditions: Vec<Condition> = conditions
-        .iter()
-        .map(|c| c.tightened(MARGIN * widest))
-        .collect();
+    let unit = typical_width(groups);
     let n = target.mesh.vertices.len();
     let geometry = FaceGeometry::new(&target.mesh);
     let areas = geometry.vertex_areas(&target.mesh);
@@ -59,20 +56,21 @@ pub fn depths(
     (0..n)
         .filter(|i| !used[*i])
         .for_each(|i| quadratic.square(i, 1.0));
-    let ones = vec![1.0; n];
-    let tangent = |c: &Condition, s: &[f64]| row(c, s, n);
+    let tangent = |c: &Condition, s: &[f64]| row(&c.tightened(MARGIN * unit), s, n, unit);
+    let start = vec![1.0; n];
     let mut program = Program {
         variables: n + groups.groups.len(),
         linear: vec![0.0; n + groups.groups.len()],
         quadratic: quadratic.finish(),
-        equalities: gauge(target, groups, &conditions, &areas),
+        equalities: gauge(target, groups, conditions, &areas),
         rows: conditions[..rows]
             .iter()
-            .filter_map(|c| row(c, &ones, n))
+            .filter_map(|c| tangent(c, &start))
             .collect(),
     };
     let depths = |u: &[f64]| {
-        let s: Vec<f64> = (0..n).map(|i| if used[i] { u[i] } else { 1.0 }).collect();
+        let depth = |i: usize| if used[i] { 1.0 + unit * u[i] } else { 1.0 };
+        let s: Vec<f64> = (0..n).map(depth).collect();
         let mu = scales(groups, &[], &s, |_| 1.0);
         (s, mu)
     };
@@ -80,7 +78,7 @@ pub fn depths(
         depths: &depths,
         tangent: &tangent,
     };
-    let (u, solved) = solve_lazily(&mut program, &conditions, &meaning)?;
+    let (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
     let (s, mu) = depths(&u);
     Ok(Depths { s, mu, solved })
 }
@@ -161,14 +159,14 @@ fn gauge(
     members.sort_unstable();
     let block = |b: &[(u32, usize)]| {
         let total: f64 = b.iter().map(|m| areas[m.1]).sum();
-        (b.iter().map(|m| (m.1, areas[m.1] / total)).collect(), 1.0)
+        (b.iter().map(|m| (m.1, areas[m.1] / total)).collect(), 0.0)
     };
     members.chunk_by(|x, y| x.0 == y.0).map(block).collect()
 }
 
 /// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
 /// groups has no row: `tau / mu` is not convex there.
-fn row(condition: &Condition, s: &[f64], n: usize) -> Option<Row> {
+fn row(condition: &Condition, s: &[f64], n: usize, unit: f64) -> Option<Row> {
     let mut terms = Vec::with_capacity(7);
     let factor = match (condition.plus, condition.minus) {
         (Some(_), Some(_)) if condition.between_groups().is_some() => return None,
@@ -189,9 +187,11 @@ fn row(condition: &Condition, s: &[f64], n: usize) -> Option<Row> {
             terms.push((n + side.group as usize, (-condition.limit).exp()));
         }
     }
+    // In s and mu all rows are homogeneous; the unknowns are what these differ from 1, in units.
+    let sum: f64 = terms.iter().map(|t| t.1).sum();
     Some(Row {
         kind: condition.kind,
         terms: gathered(terms),
-        limit: 0.0,
+        limit: -sum / unit,
     })
 }

@@ -42,7 +42,15 @@ pub fn solve_lazily(
         rounds += 1;
         let old = program.rows.len();
         program.rows.extend(rows);
-        solution = solve_again(program, &solution, old)?;
+        match solve_again(program, &solution, old) {
+            Ok(better) => solution = better,
+            // What the last solution breaks is counted below.
+            Err(SolveError::Unsolved(_)) => {
+                program.rows.truncate(old);
+                break;
+            }
+            Err(error) => return Err(error),
+        }
     }
     let (s, mu) = (meaning.depths)(&solution.u);
     let broken = conditions.iter().filter(|c| c.excess(&s, &mu) > BROKEN);

@@ -169,6 +169,22 @@ fn seen_solid_angles(target: &Target, map: &ViewMap) -> Vec<f64> {
     seen
 }
 
+/// The median width of the bounds in log depth: the unit of all unknowns, so that the solver's tolerances mean the same in
+/// every scene.
+fn typical_width(groups: &Groups) -> f64 {
+    let mut widths: Vec<f64> = groups
+        .bounds
+        .iter()
+        .map(|b| (b.upper / b.lower).ln())
+        .collect();
+    widths.sort_by(f64::total_cmp);
+    widths
+        .get(widths.len() / 2)
+        .copied()
+        .filter(|w| *w > 0.0)
+        .unwrap_or(1.0)
+}
+
 /// The smallest scale that keeps a group within its upper bounds (the paper's choice among equal optima: as close to the
 /// support as the layer allows), in closed form because a regulariser does not determine it to the last digits. Groups that
 /// an order ties to another keep the scale `free` of the solution.

@@ -10,6 +10,7 @@ use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::{
     Depths, FaceWeight, NormalOptions, Opening, SolveError, Tie, scales, seen_solid_angles,
+    typical_width,
 };
 use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
@@ -46,11 +47,10 @@ pub fn depths(
     let scaled = opening.is_none();
     let variables = index.count + if scaled { groups.groups.len() } else { 0 };
     let faces = Faces::new(options.weight, target, map, &seen, opening);
-    let conditions: Vec<Condition> = conditions
-        .iter()
-        .map(|c| c.tightened(MARGIN * unit))
-        .collect();
-    let tangent = |c: &Condition, s: &[f64]| index.tangent(c, s, unit, scaled);
+    let tangent = |c: &Condition, s: &[f64]| {
+        let harder = c.tightened(MARGIN * unit);
+        index.tangent(&harder, s, unit, scaled)
+    };
     let start = index.start(opening);
     let mut first: Vec<Row> = conditions[..rows]
         .iter()
@@ -68,7 +68,7 @@ pub fn depths(
         let s = index.relative_depths(u, unit);
         let mu = if scaled {
             let free = |g: u32| (u[index.scale(g)] * unit).exp();
-            scales(groups, &conditions, &s, free)
+            scales(groups, conditions, &s, free)
         } else {
             vec![1.0; groups.groups.len()]
         };
@@ -78,11 +78,11 @@ pub fn depths(
         depths: &depths,
         tangent: &tangent,
     };
-    let (mut u, mut solved) = solve_lazily(&mut program, &conditions, &meaning)?;
+    let (mut u, mut solved) = solve_lazily(&mut program, conditions, &meaning)?;
     for _ in 0..options.reweight {
         let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
         program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
-        (u, solved) = solve_lazily(&mut program, &conditions, &meaning)?;
+        (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
     }
     let (s, mu) = depths(&u);
     Ok(Depths { s, mu, solved })
@@ -186,22 +186,6 @@ impl Variables {
             limit: limit / unit,
         })
     }
-}
-
-/// The median width of the bounds in log depth: the unit of all unknowns, so that the solver's tolerances mean the same in
-/// every scene.
-fn typical_width(groups: &Groups) -> f64 {
-    let mut widths: Vec<f64> = groups
-        .bounds
-        .iter()
-        .map(|b| (b.upper / b.lower).ln())
-        .collect();
-    widths.sort_by(f64::total_cmp);
-    widths
-        .get(widths.len() / 2)
-        .copied()
-        .filter(|w| *w > 0.0)
-        .unwrap_or(1.0)
 }
 
 /// Weight `theta / tan^2 theta` of a face turned by `tan theta = tangent`.

@@ -79,6 +79,7 @@ pub const OUTPUT: Output = Output {
     plan: true,
     views: true,
     lights: true,
+    camouflage: true,
     picture_size: 640,
     plan_width: 2000,
 };

@@ -63,6 +63,8 @@ pub struct Output {
     pub views: bool,
     /// Figures and pictures of the views in real light.
     pub lights: bool,
+    /// Likeness from rings of eyes: figures and a plot.
+    pub camouflage: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

@@ -3,6 +3,7 @@
 use super::UNSEEN_RAD;
 use super::fusion::Field;
 use super::patches::{Patches, Seam};
+use crate::geom::parallax;
 use crate::groups::{Anchor, anchor};
 use crate::mesh::DisjointSets;
 use crate::mimic::Depths;
@@ -42,7 +43,8 @@ pub struct StepSummary {
     /// Mean height over the length, and largest.
     pub mean_mm: f64,
     pub highest_mm: f64,
-    /// How far the eye may move sideways before the largest step opens by two arc-minutes.
+    /// How far the eye may move before the largest step opens by two arc-minutes if it moves square to it: in whatever
+    /// direction, it may move that far.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
     /// Seen area of strips too narrow to print that were given to a neighbour.
@@ -120,7 +122,7 @@ pub fn lines(
         let line = StepLine {
             ends: s.line.map(|q| map.plane.direction(q)),
             height_mm: sides.map(|[a, b]| (a - b).abs()),
-            parallax: sides.map(|[a, b]| (1.0 / a - 1.0 / b).abs()),
+            parallax: sides.map(|[a, b]| parallax(a, b).abs()),
             length_mm: s.length_mm,
         };
         let cut = s.patches.map(|p| corners[p as usize]);

@@ -162,7 +162,7 @@ proptest! {
 #[test]
 fn the_svg_is_well_formed_true_to_scale_and_says_what_it_shows() {
     let (views, supports) = grove();
-    let svg = plan("Grove <1> & more", &views, &supports).svg();
+    let svg = plan("Grove <1> & more", &views, &supports, &[]).svg();
     let mut reader = quick_xml::Reader::from_str(&svg);
     let mut labels = Vec::new();
     loop {
@@ -224,14 +224,17 @@ fn the_picture_is_the_golden_one() {
     let (views, supports) = grove();
     golden::picture(
         "plan.png",
-        &plan("A small grove", &views, &supports).png(900),
+        &plan("A small grove", &views, &supports, &[]).png(900),
     );
 }
 
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
     let (views, supports) = grove();
-    let (a, b) = (plan("x", &views, &supports), plan("x", &views, &supports));
+    let (a, b) = (
+        plan("x", &views, &supports, &[]),
+        plan("x", &views, &supports, &[]),
+    );
     assert_eq!(a.svg(), b.svg());
     assert_eq!(a.png(300), b.png(300));
 }
@@ -253,7 +256,7 @@ fn odd_scenes_have_a_plan_too() {
         (views, vec![base(ring(DVec2::ZERO, 1e-3, 3))]),
     ];
     for (views, supports) in scenes {
-        let plan = plan("", &views, &supports);
+        let plan = plan("", &views, &supports, &[]);
         assert!(!plan.svg().contains("NaN") && !plan.svg().contains("inf"));
         assert!(tiny_skia::Pixmap::decode_png(&plan.png(120)).is_ok());
     }

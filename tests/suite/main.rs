@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod camouflage;
 mod cli;
 mod diagram;
 mod formats;
@@ -16,4 +17,5 @@ mod scene;
 mod scenes;
 mod shapes;
 mod steps;
+mod tolerance;
 mod visibility;

@@ -143,6 +143,8 @@ fn every_scene_gives_every_file_and_no_warning() {
             "forest.glb",
             "plan.svg",
             "plan.png",
+            "camouflage.png",
+            "camouflage.svg",
             "report.json",
         ]
         .map(String::from)
