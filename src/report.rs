@@ -3,6 +3,9 @@
 //! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
+use crate::certify::conflicts::Disturbance;
+use crate::certify::coverage::Gap;
+use crate::contest::Contest;
 use crate::mesh::Solid;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
@@ -55,12 +58,8 @@ pub struct ViewReport {
     /// Solid angle of the models as the eye sees them, steradians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solid_angle_sr: Option<f64>,
-    /// Share of that solid angle at which the eye meets a support of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub coverage: Option<f64>,
-    /// Regions of the model that no support carries.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gaps: Option<usize>,
+    pub certificate: Option<CertificateReport>,
     /// Depth groups: connected patches of one model component on one support.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub groups: Option<usize>,
@@ -94,6 +93,44 @@ pub struct ModelReport {
     pub file: String,
     /// From the file's coordinates to millimetres: rows of a 4 x 4 matrix for column vectors.
     pub matrix: [[f64; 4]; 4],
+}
+
+/// What the viewer is promised, measured.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CertificateReport {
+    /// Share of the models' solid angle at which the eye meets a support of its own.
+    pub coverage: f64,
+    /// The same without what rays found blocked or missing at the finished forest.
+    pub reaching: f64,
+    pub models: Vec<ModelShare>,
+    /// Regions of the models that nothing carries, by falling size.
+    pub gaps: Vec<Gap>,
+    /// Gaps too small to list: rounding at outlines.
+    pub small_gaps: usize,
+    pub small_gaps_arcmin2: f64,
+    /// Surface that another view wanted too, or that would have hidden the other's, and who gave way.
+    pub contests: Vec<Contest>,
+    /// What of the contested surface is still in conflict: none.
+    pub contested_left_arcmin2: f64,
+    /// What stands before reliefs in the finished forest, and reliefs that are not there.
+    pub conflicts: Vec<Disturbance>,
+    /// Conflicts too small to list: hairs at the edges of reliefs.
+    pub small_conflicts_arcmin2: f64,
+    /// Where the view's own relief is nearer than planned because corners at steps were filled in.
+    pub filled_arcmin2: f64,
+    /// Rays that the last figures rest on.
+    pub rays: usize,
+}
+
+/// What of one model reaches the viewer.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModelShare {
+    pub name: String,
+    /// As the eye would see it if nothing else were there, steradians.
+    pub solid_angle_sr: f64,
+    /// What a support carries of it, and what of that rays met at the finished forest, as shares.
+    pub coverage: f64,
+    pub reaching: f64,
 }
 
 /// Angles in degrees between the normals of target and forest.

@@ -3,15 +3,18 @@
 //! Takes a resolved [`Scene`], gives the bytes of every output file; touches no file, clock or terminal.
 //! Views are independent until the solids are united and run in parallel; nothing depends on the thread count.
 
+mod certificates;
 mod files;
 mod pictures;
 mod sight;
 mod summary;
 
+use crate::bvh::Bvh;
 use crate::carve::{Forest, ViewRelief, carve};
 use crate::diag::Diagnostic;
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
+use certificates::{certificates, settled};
 use files::{counts, file, plan_files, printable_files, summary};
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
@@ -69,8 +72,11 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     }
     progress("view maps", 0.02);
     let field = SupportField::new(&scene.supports);
-    let sights = all(scene.views.par_iter().map(|v| see(v, &field)))?;
-    let mut warnings: Vec<Diagnostic> = sights.iter().flat_map(|s| s.warning(&field)).collect();
+    let mut sights = all(scene.views.par_iter().map(|v| see(v, &field)))?;
+    let settled = settled(scene, &mut sights, &field)?;
+    let mut warnings: Vec<Diagnostic> = (sights.par_iter())
+        .flat_map_iter(|s| s.coverage(scene, &field, &[]).warnings(&s.view.name))
+        .collect();
     if goal == Goal::Check {
         return Ok(Build {
             summary: counts(scene),
@@ -91,12 +97,25 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
     warnings.extend(loose(&forest));
     progress("pictures", 0.75);
-    let pictures = pictures(scene, &shapes, &forest);
-    let report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
-    progress("files", 0.9);
+    let bvh = Bvh::new(forest.whole.mesh());
+    let pictures = pictures(scene, &shapes, &forest, &bvh);
     let summary = summary(scene, &forest, &pictures);
     let mut files = Vec::new();
     if goal == Goal::All {
+        progress("certificates", 0.87);
+        let (certificates, found) =
+            certificates(scene, &field, &sights, &shapes, &forest, &bvh, settled);
+        warnings.extend(found);
+        progress("files", 0.9);
+        let report = report(
+            scene,
+            &sights,
+            &shapes,
+            &forest,
+            &pictures,
+            certificates,
+            &warnings,
+        );
         files.extend(printable_files(scene, &forest));
         if scene.output.plan {
             files.extend(plan_files(scene));

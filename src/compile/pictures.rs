@@ -17,18 +17,17 @@ pub struct Pictures {
     pub lights: Option<(Vec<LightLikeness>, Vec<u8>)>,
 }
 
-/// The pictures of every view; `shapes` are the views'.
-pub fn pictures(scene: &Scene, shapes: &[Shape], forest: &Forest) -> Vec<Pictures> {
+/// The pictures of every view; `shapes` are the views', `bvh` that of the whole forest.
+pub fn pictures(scene: &Scene, shapes: &[Shape], forest: &Forest, bvh: &Bvh) -> Vec<Pictures> {
     let mesh = forest.whole.mesh();
-    let bvh = Bvh::new(mesh);
     let of_view = |(v, shape): (&View, &Shape)| {
         let steps = shape.steps.as_ref().map(|(lines, all)| (&lines[..], *all));
         let size = scene.output.picture_size;
-        let (likeness, view) = view_picture(v, mesh, &bvh, None, steps, size);
+        let (likeness, view) = view_picture(v, mesh, bvh, None, steps, size);
         Pictures {
             likeness,
             view,
-            lights: (scene.output.lights).then(|| light_pictures(v, mesh, &bvh)),
+            lights: (scene.output.lights).then(|| light_pictures(v, mesh, bvh)),
         }
     };
     scene.views.iter().zip(shapes).map(of_view).collect()

@@ -4,7 +4,7 @@ use super::pictures::Pictures;
 use super::sight::{Shape, Sight};
 use crate::carve::Forest;
 use crate::diag::Diagnostic;
-use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
+use crate::report::{CertificateReport, Check, ProgramReport, Report, SolidReport, ViewReport};
 use crate::scene::Scene;
 
 /// Gathers what every stage found.
@@ -14,20 +14,19 @@ pub fn report(
     shapes: &[Shape],
     forest: &Forest,
     pictures: &[Pictures],
+    certificates: Vec<CertificateReport>,
     warnings: &[Diagnostic],
 ) -> Report {
     let views = sights
         .iter()
         .zip(shapes)
         .zip(pictures)
-        .map(|((sight, shape), drawn)| {
+        .zip(certificates)
+        .map(|(((sight, shape), drawn), certificate)| {
             let solved = &shape.depths.solved;
             ViewReport {
-                solid_angle_sr: Some(sight.solid_angles().0),
-                coverage: Some(sight.coverage()),
-                gaps: Some(sight.map.regions(|c| {
-                    sight.map.cells[c].face.is_some() && sight.groups.of_cell[c].is_none()
-                })),
+                solid_angle_sr: Some(certificate.models.iter().map(|m| m.solid_angle_sr).sum()),
+                certificate: Some(certificate),
                 groups: Some(sight.groups.groups.len()),
                 cells: Some(sight.map.cells.len()),
                 clamp_mm: Some(shape.relief.clamp_mm),

@@ -107,13 +107,15 @@ pub fn settle(
     Ok(settled)
 }
 
-/// Solid angle in square arc-minutes of all cells of all views that are in conflict with another view's: 0 once settled.
-pub fn unsettled_arcmin2(claims: &[Claim], field: &SupportField) -> f64 {
+/// Solid angle in square arc-minutes of each view's cells that are in conflict with another view's: 0 once settled.
+pub fn contested(claims: &[Claim], field: &SupportField) -> Vec<f64> {
     let patches = patches(claims, field);
     let meetings = meetings(claims, &patches);
-    (0..patches.len())
-        .map(|p| contested_arcmin2(claims, &patches, &meetings, p))
-        .sum()
+    let mut sums = vec![0.0; claims.len()];
+    for (p, patch) in patches.iter().enumerate() {
+        sums[patch.view as usize] += contested_arcmin2(claims, &patches, &meetings, p);
+    }
+    sums
 }
 
 /// When each patch is served.
