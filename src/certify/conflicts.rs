@@ -22,7 +22,7 @@ use serde::Serialize;
 /// f32, mending and levelled steps leave 0.02 mm on real builds; anything that could be seen stands out by far more.
 pub const ON_RELIEF_MM: f64 = 0.05;
 /// Edges of reliefs are bedded in their supports and lapped behind others by hundredths of a millimetre: a ray that meets the
-/// relief if moved sideways by this much is only disturbed by such a seam, millimetres.
+/// relief if moved sideways by up to this much is only disturbed by such a seam, millimetres.
 pub const SEAM_MM: f64 = 0.1;
 /// Disturbances of a smaller share of the models are hairs at edges: summed, not listed. Sound builds leave up to 1e-4 of all
 /// together.
@@ -32,8 +32,9 @@ const PART_MM: f64 = 0.5;
 const MOST_PARTS: usize = 16;
 /// Hits of two meshes of the same solid nearer than this are hits of one surface, millimetres: mending moves them by less.
 const SAME_MM: f64 = 0.01;
-/// Directions in which a disturbed ray is moved.
+/// Directions in which a disturbed ray is moved, and shares of [`SEAM_MM`]: strips of relief may be narrower than it.
 const AROUND: usize = 8;
+const SHARES: [f64; 3] = [0.25, 0.5, 1.0];
 
 /// What is wrong with a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -110,7 +111,9 @@ impl Sighted {
             let [x, y, z] = d.place_mm;
             let what = match (d.trouble, &d.with_view) {
                 (Trouble::Missing, _) => format!("misses its relief on {support}"),
-                (_, Some(other)) => format!("has the relief of view \"{other}\" on {support} before its own"),
+                (_, Some(other)) => {
+                    format!("has the relief of view \"{other}\" on {support} before its own")
+                }
                 (_, None) => format!("has {support} before its relief"),
             };
             Diagnostic::warning(format!(
@@ -193,7 +196,7 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
     let filled = misses.iter().filter(|m| m.kind.is_none());
     Sighted {
         disturbances,
-        filled_arcmin2: filled.map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN,
+        filled_arcmin2: filled.map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN + 0.0,
         ..Sighted::default()
     }
 }
@@ -309,9 +312,10 @@ impl Cell {
     fn is_seam(&self, seen: &Seen, finished: &Finished, q: DVec2, wanted: f64) -> bool {
         let plane = seen.map.plane;
         let [a, b, c] = self.corners;
-        (0..AROUND).any(|k| {
+        let ways = (0..AROUND).flat_map(|k| SHARES.map(|share| (k, share)));
+        ways.into_iter().any(|(k, share)| {
             let turn = std::f64::consts::TAU * k as f64 / AROUND as f64;
-            let beside = q + DVec2::from_angle(turn) * SEAM_MM / wanted;
+            let beside = q + DVec2::from_angle(turn) * share * SEAM_MM / wanted;
             let direction = plane.direction(beside);
             let weights = crate::geom::barycentric(a, b, c, beside).to_array();
             let hit = finished.whole.first_hit(plane.eye, direction);

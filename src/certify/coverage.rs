@@ -87,9 +87,8 @@ enum Why {
 /// Coverage of a view; `views` are all views' names. `given_up` are cells (rising) that have a group but no relief in the
 /// finished solid.
 pub fn coverage(seen: &Seen, views: &[&str], field: &SupportField, given_up: &[u32]) -> Coverage {
-    let carried = |c: usize| {
-        seen.groups.of_cell[c].is_some() && given_up.binary_search(&(c as u32)).is_err()
-    };
+    let carried =
+        |c: usize| seen.groups.of_cell[c].is_some() && given_up.binary_search(&(c as u32)).is_err();
     let why: Vec<Option<Why>> = (0..seen.map.cells.len())
         .map(|c| {
             let gap = seen.map.cells[c].face.is_some() && !carried(c);
@@ -170,12 +169,19 @@ fn warning(view: &str, gap: &Gap, share: f64) -> Diagnostic {
             "add a pillar there, or move the models".to_owned(),
         ),
         Cause::PillarTooShort => (
-            format!("{support} is too short by {:.2} mm", gap.wanted_mm.unwrap_or(0.0)),
+            format!(
+                "{support} is too short by {:.2} mm",
+                gap.wanted_mm.unwrap_or(0.0)
+            ),
             format!("raise {support} (`height`), or lower the models"),
         ),
         Cause::OtherView => (
-            format!("view \"{}\" needs {support}", gap.view.as_deref().unwrap_or_default()),
-            "move pillars or models apart; `contested` says who gets what two views want".to_owned(),
+            format!(
+                "view \"{}\" needs {support}",
+                gap.view.as_deref().unwrap_or_default()
+            ),
+            "move pillars or models apart; `contested` says who gets what two views want"
+                .to_owned(),
         ),
         Cause::Hidden => (
             format!("it meets {support}, which carries nothing for it"),
@@ -187,7 +193,11 @@ fn warning(view: &str, gap: &Gap, share: f64) -> Diagnostic {
         ),
     };
     let side = |angle: f64, less: &str, more: &str| {
-        format!("{:.1} degrees {}", angle.abs(), if angle < 0.0 { less } else { more })
+        format!(
+            "{:.1} degrees {}",
+            angle.abs(),
+            if angle < 0.0 { less } else { more }
+        )
     };
     Diagnostic::warning(format!(
         "view \"{view}\" misses {:.2} % of its models, mostly {} and {} its line of sight: {reason}",

@@ -150,9 +150,8 @@ fn surface_reach(
         angles.iter().copied().fold(0.0, f64::min),
     );
     if let SupportKind::Pillar { profile, .. } = &field.supports[support as usize].kind {
-        let held = |p: &&DVec2| {
-            (right..=left).contains(&middle.angle_to(**p - map.plane.eye.truncate()))
-        };
+        let held =
+            |p: &&DVec2| (right..=left).contains(&middle.angle_to(**p - map.plane.eye.truncate()));
         let offsets = profile.iter().filter(held);
         let ridge = offsets.map(|p| slab.offset(p.extend(map.plane.eye.z)) - front);
         found.0 = ridge.fold(found.0, f64::min);

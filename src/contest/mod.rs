@@ -96,7 +96,8 @@ pub fn settle(
     let turn = turns(claims, &patches, &meetings, rule);
     settled.lost = losses(claims.len(), &patches, &meetings, &turn);
     for meeting in &meetings {
-        let loser = meeting.patches[usize::from(turn[meeting.patches[0]] < turn[meeting.patches[1]])];
+        let loser =
+            meeting.patches[usize::from(turn[meeting.patches[0]] < turn[meeting.patches[1]])];
         let lost_by = claims[patches[loser].view as usize].name;
         for side in 0..2 {
             let view = patches[meeting.patches[side]].view as usize;
@@ -119,12 +120,7 @@ pub fn contested(claims: &[Claim], field: &SupportField) -> Vec<f64> {
 }
 
 /// When each patch is served.
-fn turns(
-    claims: &[Claim],
-    patches: &[Patch],
-    meetings: &[Meeting],
-    rule: Contested,
-) -> Vec<usize> {
+fn turns(claims: &[Claim], patches: &[Patch], meetings: &[Meeting], rule: Contested) -> Vec<usize> {
     let mut order: Vec<usize> = (0..patches.len()).collect();
     if rule == Contested::Largest {
         let size: Vec<f64> = order
@@ -173,12 +169,7 @@ fn arcmin2(claims: &[Claim], patch: &Patch, cells: &[u32]) -> f64 {
 }
 
 /// Serves all patches in turn.
-fn losses(
-    views: usize,
-    patches: &[Patch],
-    meetings: &[Meeting],
-    turn: &[usize],
-) -> Vec<Vec<Loss>> {
+fn losses(views: usize, patches: &[Patch], meetings: &[Meeting], turn: &[usize]) -> Vec<Vec<Loss>> {
     let mut lost: Vec<Vec<Loss>> = vec![Vec::new(); views];
     let mut order: Vec<usize> = (0..patches.len()).collect();
     order.sort_by_key(|p| turn[*p]);

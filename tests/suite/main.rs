@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod certificates_coverage;
 mod cli;
 mod diagram;
 mod formats;

@@ -124,7 +124,10 @@ fn every_scene_becomes_one_closed_part_that_shows_its_models() {
             };
             let error = &view["normal_error_deg"];
             assert!(figure("hit_share") >= 0.9999, "{name}: {view}");
-            assert!(figure("coverage") > 0.9999, "{name}: {view}");
+            assert!(
+                view["certificate"]["coverage"].as_f64().unwrap() > 0.9999,
+                "{name}: {view}"
+            );
             assert!(error["mean"].as_f64().unwrap() <= 16.0, "{name}: {view}");
             assert!(error["median"].as_f64().unwrap() <= 10.0, "{name}: {view}");
         }
