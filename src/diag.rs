@@ -70,6 +70,14 @@ impl Diagnostic {
         self
     }
 
+    /// The same as an error.
+    pub fn into_error(self) -> Self {
+        Self {
+            severity: Severity::Error,
+            ..self
+        }
+    }
+
     pub fn help(mut self, line: impl Into<String>) -> Self {
         self.help.push(line.into());
         self

@@ -168,6 +168,32 @@ pub fn with_bounds(
     }
 }
 
+/// The groups without some cells (rising), which are given up: what is left of them falls into connected regions anew.
+pub fn without(
+    groups: &Groups,
+    lost: &[u32],
+    map: &ViewMap,
+    target: &Target,
+    field: &SupportField,
+) -> Groups {
+    let label = |c: usize| {
+        let kept = lost.binary_search(&(c as u32)).is_err();
+        let group = groups.of_cell[c].filter(|_| kept)?;
+        let group = &groups.groups[group as usize];
+        Some((group.support, group.component))
+    };
+    let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(label).collect();
+    let (found, of_cell) = regions(map, &labels);
+    let left = Groups {
+        groups: found,
+        of_cell,
+        bounds: Vec::new(),
+        needed: 0,
+        slabs: groups.slabs.clone(),
+    };
+    with_bounds(&left, map, target, field)
+}
+
 /// Flood fill over equal labels.
 fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Option<u32>>) {
     let mut of_cell = vec![None; labels.len()];

@@ -16,6 +16,7 @@
 //! | a view's models | [`viewmap::Target::new`] | the target ready for rays, projected |
 //! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |
 //! | view map | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
+//! | groups of all views | [`contest::settle`] | [`contest::Settlement`]: contested surface, and which view loses it |
 //! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
 //! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |

@@ -4,7 +4,11 @@
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
 use crate::certify::camouflage::Camouflage;
+use crate::certify::conflicts::Disturbance;
+use crate::certify::coverage::Gap;
 use crate::certify::tolerance::Tolerance;
+use crate::contest::Contest;
+use crate::diag::Diagnostic;
 use crate::mesh::Solid;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
@@ -18,6 +22,9 @@ pub struct Report {
     pub program: Program,
     /// Title of the scene.
     pub scene: String,
+    /// Whether all holds that a build promises; else what does not.
+    pub ok: bool,
+    pub failures: Vec<String>,
     pub views: Vec<ViewReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solid: Option<SolidReport>,
@@ -60,25 +67,14 @@ pub struct ViewReport {
     /// Solid angle of the models as the eye sees them, steradians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solid_angle_sr: Option<f64>,
-    /// Share of that solid angle at which the eye meets a support of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub coverage: Option<f64>,
-    /// Regions of the model that no support carries.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gaps: Option<usize>,
+    pub certificate: Option<CertificateReport>,
     /// Depth groups: connected patches of one model component on one support.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub groups: Option<usize>,
     /// Triangles of the view map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<usize>,
-    /// Largest distance a point was moved along its ray to stay within its layer after solving, millimetres.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clamp_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bound_violation_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub order_inversions: Option<usize>,
     /// Where the surface was torn into steps, if it might be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<StepSummary>,
@@ -95,9 +91,6 @@ pub struct ViewReport {
     /// How the view looks under suns and under an overcast sky, shadows included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights: Option<Vec<LightLikeness>>,
-    /// How far the eye may move, and from where two eyes see one object.
-    #[serde(flatten)]
-    pub tolerance: Option<Tolerance>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -106,6 +99,57 @@ pub struct ModelReport {
     pub file: String,
     /// From the file's coordinates to millimetres: rows of a 4 x 4 matrix for column vectors.
     pub matrix: [[f64; 4]; 4],
+}
+
+/// What the viewer is promised, measured.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CertificateReport {
+    /// How far the finished relief leaves its layer anywhere, and how far points had to be moved along their rays for that:
+    /// millimetres.
+    pub bound_violation_mm: f64,
+    pub clamp_mm: f64,
+    /// Places where a farther sheet of the model comes before a nearer one.
+    pub order_inversions: usize,
+    /// Proof that the depths are the optimum of their program, measured on the result (see `mimic::optimality`).
+    pub duality_gap_rel: f64,
+    pub primal_residual: f64,
+    pub dual_residual: f64,
+    /// Share of the models' solid angle at which the eye meets a support of its own.
+    pub coverage: f64,
+    /// The same without what rays found blocked or missing at the finished forest.
+    pub reaching: f64,
+    pub models: Vec<ModelShare>,
+    /// Regions of the models that nothing carries, by falling size.
+    pub gaps: Vec<Gap>,
+    /// Gaps too small to list: rounding at outlines.
+    pub small_gaps: usize,
+    pub small_gaps_arcmin2: f64,
+    /// Surface that another view wanted too, or that would have hidden the other's, and who gave way.
+    pub contests: Vec<Contest>,
+    /// What of the contested surface is still in conflict: none.
+    pub contested_left_arcmin2: f64,
+    /// What stands before reliefs in the finished forest, and reliefs that are not there.
+    pub conflicts: Vec<Disturbance>,
+    /// Conflicts too small to list: hairs at the edges of reliefs.
+    pub small_conflicts_arcmin2: f64,
+    /// Where the view's own relief is nearer than planned because corners at steps were filled in.
+    pub filled_arcmin2: f64,
+    /// Rays that the last figures rest on.
+    pub rays: usize,
+    /// How far the eye may move, and from where two eyes see one object.
+    #[serde(flatten)]
+    pub tolerance: Tolerance,
+}
+
+/// What of one model reaches the viewer.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModelShare {
+    pub name: String,
+    /// As the eye would see it if nothing else were there, steradians.
+    pub solid_angle_sr: f64,
+    /// What a support carries of it, and what of that rays met at the finished forest, as shares.
+    pub coverage: f64,
+    pub reaching: f64,
 }
 
 /// Angles in degrees between the normals of target and forest.
@@ -121,21 +165,19 @@ pub struct NormalError {
 pub struct ProgramReport {
     pub variables: usize,
     pub rows: usize,
+    /// Independent parts that were solved one by one.
+    pub blocks: usize,
     pub active_rows: usize,
     pub iterations: u32,
     /// Scaled so that the mean diagonal of the quadratic form is 1: comparable between runs of one scene only.
     pub objective: f64,
-    pub primal_residual: f64,
-    pub dual_residual: f64,
-    pub duality_gap_rel: f64,
-    /// Independent parts that were solved one by one.
-    pub blocks: usize,
     /// How often the program was solved again because depths between vertices broke a bound or an order, with how many
     /// rows more, and the objective before.
     pub rounds: u32,
     pub rows_added: usize,
     pub objective_first: f64,
-    pub broken_conditions: usize,
+    /// What fixes the offsets that the energy leaves open.
+    pub gauge: &'static str,
 }
 
 /// The finished forest.
@@ -170,6 +212,14 @@ pub struct Timing {
 }
 
 impl Report {
+    /// Adds what does not hold, and what is worth a warning.
+    pub fn judge(&mut self, failures: &[Diagnostic], warnings: &[Diagnostic]) {
+        let texts = |list: &[Diagnostic]| list.iter().map(|d| d.message.clone()).collect();
+        self.ok = failures.is_empty();
+        self.failures = texts(failures);
+        self.warnings = texts(warnings);
+    }
+
     /// The file's text, with a line break at its end.
     ///
     /// # Panics

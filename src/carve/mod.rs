@@ -89,6 +89,8 @@ pub struct Forest {
     pub bare: Solid,
     /// The reliefs of each view, in the order of the views; `None` for a view without any.
     pub reliefs: Vec<Option<Solid>>,
+    /// Cells of each view's map that had to be given up, rising.
+    pub given_up: Vec<Vec<u32>>,
     /// What had to be changed on the way.
     pub repairs: Repairs,
 }
@@ -194,10 +196,16 @@ fn unite(carved: &[Carved], views: &[ViewRelief]) -> Result<Forest, CarveError> 
     );
     let whole = whole?.unwrap_or_else(|| unreachable!("a scene has supports"));
     let bare = bare?.unwrap_or_else(|| unreachable!("a scene has supports"));
+    let mut given_up = vec![Vec::new(); views.len()];
+    for (v, cells) in carved.iter().flat_map(|c| &c.given_up) {
+        given_up[*v].extend(cells);
+    }
+    given_up.iter_mut().for_each(|cells| cells.sort_unstable());
     Ok(Forest {
         whole,
         bare,
         reliefs: reliefs?,
+        given_up,
         repairs,
     })
 }
@@ -241,6 +249,8 @@ struct Carved {
     whole: Solid,
     bare: Solid,
     blocks: Vec<(usize, Solid)>,
+    /// Cells given up, by view.
+    given_up: Vec<(usize, Vec<u32>)>,
     repairs: Repairs,
     /// Index into [`WIDTHS`].
     widths: usize,
@@ -284,6 +294,7 @@ fn carve_at(
     let mut repairs = Repairs::default();
     let mut bare = Boolean::new(&support.mesh).map_err(failed)?;
     let mut blocks = Vec::new();
+    let mut given_up = Vec::new();
     for (v, view) in views.iter().enumerate() {
         let cells = cells_on(view, s);
         let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else {
@@ -293,7 +304,8 @@ fn carve_at(
         let behind = |c, k| hidden(view.map, c, k);
         let made = block(view.map, &cells, &view.relief.depth, back, behind, lap);
         repairs.filled += made.filled;
-        repairs.dropped_cells += made.dropped;
+        repairs.dropped_cells += made.dropped.len();
+        given_up.push((v, made.dropped));
         let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
         bare = bare.minus(&hollow).map_err(failed)?;
         blocks.push((v, slab, Boolean::new(&made.mesh).map_err(failed)?));
@@ -332,6 +344,7 @@ fn carve_at(
         blocks: blocks.collect::<Result<_, _>>()?,
         whole: sound(&whole, &name("with reliefs"))?,
         bare: sound(&bare, &name("carved"))?,
+        given_up,
         repairs,
         widths,
     })

@@ -160,7 +160,7 @@ pub struct WorstCut {
 }
 
 /// The certificate of one view.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Tolerance {
     /// Until the worst cut opens by two arc-minutes.
     pub eye_tolerance_mm: Movement,

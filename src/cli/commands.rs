@@ -18,6 +18,7 @@ const WRONG_USAGE: u8 = 2;
 const NOT_PRINTABLE: u8 = 3;
 
 const NOTHING: &str = "Nothing was written.";
+const NOTHING_YET: &str = "Nothing was written; `--force` writes it all the same.";
 
 /// Runs the command; gives the exit code.
 pub fn run(cli: &Cli) -> u8 {
@@ -25,19 +26,26 @@ pub fn run(cli: &Cli) -> u8 {
     match &cli.command {
         Command::Init { scene, force } => init(&messages, scene, *force),
         Command::Check { scene } => check(&messages, &cli.global, scene),
-        Command::Build { scene, output } => {
-            make(&messages, &cli.global, scene, output.as_deref(), Goal::All)
+        Command::Build {
+            scene,
+            output,
+            force,
+        } => {
+            let order = Order {
+                goal: Goal::All,
+                output: output.as_deref(),
+                force: *force,
+            };
+            make(&messages, &cli.global, scene, &order)
         }
         Command::View { scene, output } => {
-            make(&messages, &cli.global, scene, output.as_deref(), Goal::Plan)
+            let order = Order::of(Goal::Plan, output.as_deref());
+            make(&messages, &cli.global, scene, &order)
         }
-        Command::Render { scene, output } => make(
-            &messages,
-            &cli.global,
-            scene,
-            output.as_deref(),
-            Goal::Pictures,
-        ),
+        Command::Render { scene, output } => {
+            let order = Order::of(Goal::Pictures, output.as_deref());
+            make(&messages, &cli.global, scene, &order)
+        }
         Command::Inspect { files, json } => inspect(
             &messages,
             files,
@@ -228,43 +236,61 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
     }
 }
 
-fn make(
-    messages: &Messages,
-    global: &Global,
-    args: &SceneArgs,
-    output: Option<&Path>,
+/// What is to be made, and where it goes.
+struct Order<'a> {
     goal: Goal,
-) -> u8 {
-    let allowed: &[&str] = match goal {
+    output: Option<&'a Path>,
+    /// Write even what does not hold.
+    force: bool,
+}
+
+impl<'a> Order<'a> {
+    fn of(goal: Goal, output: Option<&'a Path>) -> Self {
+        Self {
+            goal,
+            output,
+            force: false,
+        }
+    }
+}
+
+fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -> u8 {
+    let allowed: &[&str] = match order.goal {
         Goal::Plan => &["svg", "png"],
         Goal::Pictures => &[],
         _ => &["3mf", "stl", "glb", "svg", "png", "json"],
     };
-    let target = match Target::new(output, &args.scene, allowed) {
+    let target = match Target::new(order.output, &args.scene, allowed) {
         Ok(target) => target,
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
     let Some(loaded) = load(messages, args) else {
         return WRONG_INPUT;
     };
-    let (build, reporter) = match compile(messages, global, args, &loaded, goal) {
+    let (build, reporter) = match compile(messages, global, args, &loaded, order.goal) {
         Ok(done) => done,
         Err(code) => return code,
     };
+    let code = if build.failures.is_empty() {
+        WELL
+    } else {
+        NOT_PRINTABLE
+    };
+    if code != WELL {
+        messages.print(&build.failures, Some(&loaded.source));
+        if !order.force {
+            messages.closing(&build.failures, NOTHING_YET);
+            return code;
+        }
+        messages.closing(&build.failures, "Written all the same.");
+    }
     match target.write(&build.files) {
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
-            say(&format!(
-                "wrote {}  {}  ({seconds:.1} s)\n",
-                path.display(),
-                build.summary
-            ));
-            if build.printable || goal == Goal::Plan {
-                WELL
-            } else {
-                NOT_PRINTABLE
-            }
+            let done = format!("wrote {}  {}", path.display(), build.summary);
+            say(&format!("{done}  ({seconds:.1} s)\n"));
+            code
         }
     }
 }

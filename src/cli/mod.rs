@@ -1,7 +1,8 @@
 //! The command line: arguments, commands and exit codes.
 //!
 //! Only here are files, the clock and the terminal touched. Exit codes: 0 everything passed our own checks, 1 something is
-//! wrong with the scene or its files, 2 wrong usage, 3 built and checked but not printable.
+//! wrong with the scene or its files, 2 wrong usage, 3 built and checked, but something
+//! does not hold that a build promises.
 
 mod commands;
 mod files;
@@ -19,7 +20,7 @@ A new forest in three commands:
   pillarforest check             reads everything, says what is wrong, writes nothing
   pillarforest build             writes the forest, plan, pictures and report to out/scene/
 
-Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, 3 built but not printable.";
+Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, 3 built, but not all that is promised holds.";
 
 /// Turns a scene of models, eyes and pillars into a printable pillar forest: each model appears from its own eye only.
 #[derive(Debug, Parser)]
@@ -95,6 +96,9 @@ pub enum Command {
         /// Directory for all files, or one file whose ending picks the format (.3mf .stl .glb .svg .png .json) [default: out/<scene>]
         #[arg(short, long, value_hint = ValueHint::AnyPath)]
         output: Option<PathBuf>,
+        /// Write everything even if something of it does not hold (exit code 3 all the same)
+        #[arg(long)]
+        force: bool,
     },
     /// Draw only the plan: the forest from above with what every eye sees
     View {

@@ -1,61 +1,60 @@
 //! What eyes see that do not stand in their places: tolerance and camouflage, with their picture.
 
-use super::OutputFile;
 use super::files::file;
-use super::sight::{Shape, Sight};
-use crate::bvh::Bvh;
-use crate::carve::Forest;
+use super::sight::Sight;
+use super::{Built, OutputFile};
 use crate::certify::camouflage::{Camouflage, camouflage};
 use crate::certify::tolerance::{Movement, Tolerance, confirm, tolerance};
 use crate::diagram::curves::{Curve, curves};
+use crate::relief::Relief;
+use crate::report::CertificateReport;
 use crate::scene::Scene;
 use crate::support::SupportKind;
 use crate::view::View;
-use rayon::prelude::*;
 
 /// Width of camouflage.png, pixels.
 const CAMOUFLAGE_PX: u32 = 1600;
 
-/// The tolerance of every view, confirmed by rays at the forest, whose `bvh` is given.
-pub fn tolerances(
-    scene: &Scene,
-    sights: &[Sight],
-    shapes: &[Shape],
-    forest: &Forest,
-    bvh: &Bvh,
-) -> Vec<Tolerance> {
-    let of_view = |(s, shape): (&Sight, &Shape)| {
-        let supports = &scene.supports;
-        let mut found = tolerance(s.view, &s.map, &s.target, &shape.relief, supports);
-        confirm(&mut found, &s.map.plane, forest.whole.mesh(), bvh);
-        found
-    };
-    sights.par_iter().zip(shapes).map(of_view).collect()
+/// The tolerance of a view, confirmed by rays at the forest.
+pub fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tolerance {
+    let supports = &built.scene.supports;
+    let mut found = tolerance(sight.view, &sight.map, &sight.target, relief, supports);
+    let mesh = built.forest.whole.mesh();
+    confirm(&mut found, &sight.map.plane, mesh, &built.bvh);
+    found
 }
 
 /// How far eyes may move on the level with the picture still one, millimetres; none where nothing ever opens.
-pub fn rooms(tolerances: &[Tolerance]) -> Vec<Option<f64>> {
-    let room = |t: &Tolerance| {
-        let Movement { side, fore, .. } = t.one_picture_mm;
+pub fn rooms(certificates: &[CertificateReport]) -> Vec<Option<f64>> {
+    let room = |c: &CertificateReport| {
+        let Movement { side, fore, .. } = c.tolerance.one_picture_mm;
         side.into_iter().chain(fore).reduce(f64::min)
     };
-    tolerances.iter().map(room).collect()
+    certificates.iter().map(room).collect()
 }
 
-/// The camouflage of every view.
-pub fn camouflages(scene: &Scene, forest: &Forest, bvh: &Bvh) -> Vec<Camouflage> {
-    let mesh = forest.whole.mesh();
+/// The camouflage of every view, if the scene wants it.
+pub fn camouflages(built: &Built) -> Vec<Camouflage> {
+    let (scene, whole) = (built.scene, &built.forest.whole);
+    if !scene.output.camouflage {
+        return Vec::new();
+    }
     let floor = scene.supports.iter().find_map(|s| match s.kind {
         SupportKind::Base { top, .. } => Some(top),
         SupportKind::Pillar { .. } => None,
     });
-    let floor = floor.unwrap_or(forest.whole.bounds().0.z);
+    let floor = floor.unwrap_or(whole.bounds().0.z);
     let views = scene.views.iter();
-    views.map(|v| camouflage(v, mesh, bvh, floor)).collect()
+    views
+        .map(|v| camouflage(v, whole.mesh(), &built.bvh, floor))
+        .collect()
 }
 
-/// `camouflage.svg` and `camouflage.png`.
+/// `camouflage.svg` and `camouflage.png`, if there is any.
 pub fn camouflage_files(scene: &Scene, found: &[Camouflage]) -> Vec<OutputFile> {
+    if found.is_empty() {
+        return Vec::new();
+    }
     let curve = |(of_view, view): (&Camouflage, &View)| Curve {
         name: view.name.clone(),
         colour: view.colour,

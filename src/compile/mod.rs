@@ -3,23 +3,27 @@
 //! Takes a resolved [`Scene`], gives the bytes of every output file; touches no file, clock or terminal.
 //! Views are independent until the solids are united and run in parallel; nothing depends on the thread count.
 
+mod certificates;
 mod elsewhere;
 mod files;
 mod pictures;
 mod sight;
 mod summary;
+mod verdict;
 
 use crate::bvh::Bvh;
 use crate::carve::{Forest, ViewRelief, carve};
 use crate::diag::Diagnostic;
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
-use elsewhere::{camouflage_files, camouflages, rooms, tolerances};
+use certificates::{Settled, certificates, settled};
+use elsewhere::{camouflage_files, rooms};
 use files::{counts, file, plan_files, printable_files, summary};
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
-use sight::see;
+use sight::{Shape, Sight, see};
 use summary::report;
+use verdict::failures;
 
 /// A file to be written, relative to the output directory.
 #[derive(Clone, Debug)]
@@ -35,9 +39,21 @@ pub struct Build {
     /// The last line for the terminal without paths and times:
     /// `27 pillars, 144 x 144 x 95 mm, 158 cm3, watertight; bunny 7.7 deg / skull 9.1 deg` (mean normal errors).
     pub summary: String,
-    /// Whether every solid passed our own checks.
-    pub printable: bool,
+    /// What of all that a build promises does not hold; only [`Goal::All`] looks at it.
+    pub failures: Vec<Diagnostic>,
     pub warnings: Vec<Diagnostic>,
+}
+
+/// All results of the stages that make a forest.
+struct Built<'a> {
+    scene: &'a Scene,
+    field: &'a SupportField<'a>,
+    sights: Vec<Sight<'a>>,
+    settled: Settled,
+    shapes: Vec<Shape>,
+    forest: Forest,
+    /// That of the whole forest.
+    bvh: Bvh,
 }
 
 /// What is wanted of a scene.
@@ -65,19 +81,22 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         progress("plan", 0.1);
         return Ok(Build {
             files: plan_files(scene, &[]),
-            printable: true,
             summary: counts(scene),
             ..Build::default()
         });
     }
     progress("view maps", 0.02);
     let field = SupportField::new(&scene.supports);
-    let sights = all(scene.views.par_iter().map(|v| see(v, &field)))?;
-    let mut warnings: Vec<Diagnostic> = sights.iter().flat_map(|s| s.warning(&field)).collect();
+    let mut sights = all(scene.views.par_iter().map(|v| see(v, &field)))?;
+    let settled = settled(scene, &mut sights, &field)?;
+    // A build tells of what is missing as failures.
+    let told = sights.par_iter().filter(|_| goal != Goal::All);
+    let warnings: Vec<Diagnostic> = told
+        .flat_map_iter(|s| s.coverage(scene, &field, &[]).warnings(&s.view.name))
+        .collect();
     if goal == Goal::Check {
         return Ok(Build {
             summary: counts(scene),
-            printable: true,
             warnings,
             ..Build::default()
         });
@@ -92,53 +111,44 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         .collect();
     let forest =
         carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
-    warnings.extend(loose(&forest));
-    progress("pictures", 0.75);
-    let bvh = Bvh::new(forest.whole.mesh());
-    let pictures = pictures(scene, &shapes, &forest, &bvh);
-    progress("eyes elsewhere", 0.85);
-    let tolerances = tolerances(scene, &sights, &shapes, &forest, &bvh);
-    let camouflage = if goal == Goal::All && scene.output.camouflage {
-        camouflages(scene, &forest, &bvh)
-    } else {
-        Vec::new()
+    progress("pictures", 0.7);
+    let built = Built {
+        bvh: Bvh::new(forest.whole.mesh()),
+        scene,
+        field: &field,
+        sights,
+        settled,
+        shapes,
+        forest,
     };
-    let mut report = report(
-        scene, &field, &sights, &shapes, &forest, &pictures, &warnings,
-    );
-    for (view, found) in report.views.iter_mut().zip(&tolerances) {
-        view.tolerance = Some(found.clone());
+    let pictures = pictures(&built);
+    let summary = summary(scene, &built.forest, &pictures);
+    if goal == Goal::Pictures {
+        return Ok(Build {
+            files: picture_files(scene, pictures, true),
+            summary,
+            warnings,
+            ..Build::default()
+        });
     }
+    progress("certificates", 0.8);
+    let certificates = certificates(&built);
     progress("files", 0.9);
-    let summary = summary(scene, &forest, &pictures);
-    let mut files = Vec::new();
-    if goal == Goal::All {
-        files.extend(printable_files(scene, &forest));
-        if scene.output.plan {
-            files.extend(plan_files(scene, &rooms(&tolerances)));
-        }
-        if !camouflage.is_empty() {
-            files.extend(camouflage_files(scene, &camouflage));
-        }
-        report.camouflage = camouflage;
-        files.push(file("report.json", report.json().into_bytes()));
+    let mut files = printable_files(scene, &built.forest);
+    if scene.output.plan {
+        files.extend(plan_files(scene, &rooms(&certificates.views)));
     }
-    let views = goal == Goal::Pictures || scene.output.views;
-    files.extend(picture_files(scene, pictures, views));
+    files.extend(camouflage_files(scene, &certificates.camouflage));
+    let (mut report, unseen) = report(&built, &pictures, certificates);
+    let failures = failures(scene, &report, unseen);
+    report.judge(&failures, &warnings);
+    files.push(file("report.json", report.json().into_bytes()));
+    files.extend(picture_files(scene, pictures, scene.output.views));
     Ok(Build {
         files,
         summary,
-        printable: forest.whole.parts() == 1,
+        failures,
         warnings,
-    })
-}
-
-/// A forest must be one piece.
-fn loose(forest: &Forest) -> Option<Diagnostic> {
-    let parts = forest.whole.parts();
-    (parts > 1).then(|| {
-        Diagnostic::warning(format!("the forest comes apart into {parts} pieces"))
-            .help("a pillar that stands outside the base, or no base at all, leaves pieces loose")
     })
 }
 

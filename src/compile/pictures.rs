@@ -1,10 +1,8 @@
 //! The pictures of a finished forest, and the figures they give.
 
-use super::OutputFile;
 use super::files::file;
 use super::sight::Shape;
-use crate::bvh::Bvh;
-use crate::carve::Forest;
+use super::{Built, OutputFile};
 use crate::render::{LightLikeness, Likeness, light_pictures, view_picture};
 use crate::scene::Scene;
 use crate::view::View;
@@ -17,20 +15,25 @@ pub struct Pictures {
     pub lights: Option<(Vec<LightLikeness>, Vec<u8>)>,
 }
 
-/// The pictures of every view; `shapes` are the views', `bvh` that of the whole forest.
-pub fn pictures(scene: &Scene, shapes: &[Shape], forest: &Forest, bvh: &Bvh) -> Vec<Pictures> {
-    let mesh = forest.whole.mesh();
+/// The pictures of every view.
+pub fn pictures(built: &Built) -> Vec<Pictures> {
+    let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
     let of_view = |(v, shape): (&View, &Shape)| {
         let steps = shape.steps.as_ref().map(|(lines, all)| (&lines[..], *all));
-        let size = scene.output.picture_size;
-        let (likeness, view) = view_picture(v, mesh, bvh, None, steps, size);
+        let (likeness, view) = view_picture(v, mesh, bvh, None, steps, output.picture_size);
         Pictures {
             likeness,
             view,
-            lights: (scene.output.lights).then(|| light_pictures(v, mesh, bvh)),
+            lights: (output.lights).then(|| light_pictures(v, mesh, bvh)),
         }
     };
-    scene.views.iter().zip(shapes).map(of_view).collect()
+    built
+        .scene
+        .views
+        .iter()
+        .zip(&built.shapes)
+        .map(of_view)
+        .collect()
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.

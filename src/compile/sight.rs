@@ -1,9 +1,12 @@
 //! One view on its way through the stages that concern it alone.
 
 use crate::carve::ViewRelief;
+use crate::certify::Seen;
+use crate::certify::coverage::{Coverage, coverage};
+use crate::contest::{Claim, Loss};
 use crate::diag::Diagnostic;
 use crate::geom::ImagePlane;
-use crate::groups::{Groups, groups};
+use crate::groups::{Groups, groups, without};
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
 use crate::scene::Scene;
@@ -11,15 +14,14 @@ use crate::steps::{StepLine, StepSummary, torn};
 use crate::view::View;
 use crate::viewmap::{SupportField, Target, ViewMap, view_map};
 
-/// Gaps below this share of a model are rounding at its outline.
-const GAP_SHARE: f64 = 1e-6;
-
 /// One view before optimisation.
 pub struct Sight<'a> {
     pub view: &'a View,
     pub target: Target,
     pub map: ViewMap,
     pub groups: Groups,
+    /// Cells left to other views, rising.
+    pub lost: Vec<Loss>,
 }
 
 /// One view after it.
@@ -51,62 +53,56 @@ pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Di
         target,
         map,
         groups,
+        lost: Vec::new(),
     })
 }
 
 impl Sight<'_> {
-    /// Solid angles in steradians of the models, and of what of them a support carries.
-    pub fn solid_angles(&self) -> (f64, f64) {
-        let of = |c: &usize| self.map.solid_angle(*c);
-        let seen: Vec<usize> = (0..self.map.cells.len())
-            .filter(|c| self.map.cells[*c].face.is_some())
-            .collect();
-        (
-            seen.iter().map(of).sum(),
-            seen.iter()
-                .filter(|c| self.groups.of_cell[**c].is_some())
-                .map(of)
-                .sum(),
-        )
+    /// What the view wants of the supports.
+    pub fn claim(&self) -> Claim<'_> {
+        Claim {
+            name: &self.view.name,
+            map: &self.map,
+            groups: &self.groups,
+        }
     }
 
-    /// Share of the models' solid angle that a support carries.
-    pub fn coverage(&self) -> f64 {
-        let (whole, carried) = self.solid_angles();
-        carried / whole
+    /// What certificates need of the view.
+    pub fn seen(&self) -> Seen<'_> {
+        Seen {
+            view: self.view,
+            target: &self.target,
+            map: &self.map,
+            groups: &self.groups,
+            lost: &self.lost,
+        }
     }
 
-    /// What of the models no support carries, if it is worth telling.
-    pub fn warning(&self, field: &SupportField) -> Option<Diagnostic> {
-        let gap = 1.0 - self.coverage();
-        let largest = (0..self.map.cells.len())
-            .filter(|c| self.map.cells[*c].face.is_some() && self.groups.of_cell[*c].is_none())
-            .max_by(|a, b| {
-                self.map
-                    .solid_angle(*a)
-                    .total_cmp(&self.map.solid_angle(*b))
-            })?;
-        let behind = match self.map.cells[largest].support {
-            Some(s) => format!(
-                "it meets {}, which carries nothing",
-                field.supports[s as usize].name
-            ),
-            None => "no pillar stands there, or it is too short".into(),
-        };
-        let side = self.map.points_mean(self.map.cells[largest].corners);
-        let (across, above) = (side.x.atan().to_degrees(), side.y.atan().to_degrees());
-        (gap > GAP_SHARE).then(|| {
-            Diagnostic::warning(format!(
-                "view \"{}\" misses {:.2} % of its models, mostly {:.1} degrees {} and {:.1} degrees {} its line of sight: {behind}",
-                self.view.name,
-                100.0 * gap,
-                across.abs(),
-                if across < 0.0 { "left of" } else { "right of" },
-                above.abs(),
-                if above < 0.0 { "below" } else { "above" },
+    /// What of the models a support carries, and why the rest is not. `given_up` are cells without relief in the solid.
+    pub fn coverage(&self, scene: &Scene, field: &SupportField, given_up: &[u32]) -> Coverage {
+        let views: Vec<&str> = scene.views.iter().map(|v| v.name.as_str()).collect();
+        coverage(&self.seen(), &views, field, given_up)
+    }
+
+    /// Leaves cells to other views.
+    ///
+    /// # Errors
+    /// If nothing is left.
+    pub fn give_up(&mut self, lost: Vec<Loss>, field: &SupportField) -> Result<(), Diagnostic> {
+        if lost.is_empty() {
+            return Ok(());
+        }
+        let cells: Vec<u32> = lost.iter().map(|l| l.cell).collect();
+        self.groups = without(&self.groups, &cells, &self.map, &self.target, field);
+        self.lost = lost;
+        if self.groups.groups.is_empty() {
+            return Err(Diagnostic::error(format!(
+                "view \"{}\": other views own every place where its models could appear",
+                self.view.name
             ))
-            .help("add or raise a pillar there, or move the models")
-        })
+            .help("move pillars or models apart, or try `contested: Largest`"));
+        }
+        Ok(())
     }
 
     /// Optimises, cuts and scales back.

@@ -1,66 +1,33 @@
 //! The report of a finished forest.
 
+use super::Built;
+use super::certificates::Certificates;
 use super::pictures::Pictures;
-use super::sight::{Shape, Sight};
-use crate::carve::Forest;
-use crate::certify::layer::{bound_violation_mm, order_inversions};
 use crate::diag::Diagnostic;
+use crate::mimic::Solved;
 use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
-use crate::scene::Scene;
-use crate::viewmap::SupportField;
 
-/// Gathers what every stage found.
+/// Gathers what every stage found; gives back what of the models does not reach its viewer.
 pub fn report(
-    scene: &Scene,
-    field: &SupportField,
-    sights: &[Sight],
-    shapes: &[Shape],
-    forest: &Forest,
+    built: &Built,
     pictures: &[Pictures],
-    warnings: &[Diagnostic],
-) -> Report {
-    let views = sights
-        .iter()
-        .zip(shapes)
-        .zip(pictures)
-        .map(|((sight, shape), drawn)| {
-            let solved = &shape.depths.solved;
-            ViewReport {
-                solid_angle_sr: Some(sight.solid_angles().0),
-                coverage: Some(sight.coverage()),
-                gaps: Some(sight.map.regions(|c| {
-                    sight.map.cells[c].face.is_some() && sight.groups.of_cell[c].is_none()
-                })),
-                groups: Some(sight.groups.groups.len()),
-                cells: Some(sight.map.cells.len()),
-                clamp_mm: Some(shape.relief.clamp_mm),
-                bound_violation_mm: Some(bound_violation_mm(
-                    &sight.map,
-                    field,
-                    &sight.groups,
-                    &shape.relief,
-                )),
-                order_inversions: Some(order_inversions(&sight.map, &sight.target, &shape.relief)),
-                steps: shape.steps.as_ref().map(|s| s.1),
-                program: Some(ProgramReport {
-                    variables: solved.variables,
-                    rows: solved.rows,
-                    active_rows: solved.optimality.active,
-                    iterations: solved.iterations,
-                    objective: solved.optimality.objective,
-                    primal_residual: solved.optimality.primal_residual,
-                    dual_residual: solved.optimality.dual_residual,
-                    duality_gap_rel: solved.optimality.gap,
-                    blocks: solved.blocks,
-                    rounds: solved.rounds,
-                    rows_added: solved.added,
-                    objective_first: solved.objective_first,
-                    broken_conditions: solved.broken,
-                }),
-                lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
-                ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)
-            }
+    certificates: Certificates,
+) -> (Report, Vec<Diagnostic>) {
+    let stages = built.sights.iter().zip(&built.shapes);
+    let results = pictures.iter().zip(certificates.views);
+    let views = stages
+        .zip(results)
+        .map(|((sight, shape), (drawn, certificate))| ViewReport {
+            solid_angle_sr: Some(certificate.models.iter().map(|m| m.solid_angle_sr).sum()),
+            certificate: Some(certificate),
+            groups: Some(sight.groups.groups.len()),
+            cells: Some(sight.map.cells.len()),
+            steps: shape.steps.as_ref().map(|s| s.1),
+            program: Some(program(&shape.depths.solved)),
+            lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
+            ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)
         });
+    let forest = &built.forest;
     let repairs = &forest.repairs;
     let check = |name: &str, passed: bool, found: String| Check {
         name: name.into(),
@@ -99,11 +66,27 @@ pub fn report(
             format!("{}", repairs.filled),
         ),
     ];
-    Report {
-        scene: scene.title.clone(),
+    let report = Report {
+        scene: built.scene.title.clone(),
         views: views.collect(),
         solid: Some(SolidReport::new(&forest.whole, checks)),
-        warnings: warnings.iter().map(|w| w.message.clone()).collect(),
+        camouflage: certificates.camouflage,
         ..Report::default()
+    };
+    (report, certificates.unseen)
+}
+
+fn program(solved: &Solved) -> ProgramReport {
+    ProgramReport {
+        variables: solved.variables,
+        rows: solved.rows,
+        blocks: solved.blocks,
+        active_rows: solved.optimality.active,
+        iterations: solved.iterations,
+        objective: solved.optimality.objective,
+        objective_first: solved.objective_first,
+        rounds: solved.rounds,
+        rows_added: solved.added,
+        gauge: solved.gauge,
     }
 }

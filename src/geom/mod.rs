@@ -10,6 +10,10 @@ pub use planar::{barycentric, orient, polygon_area, segment_crossing};
 
 use glam::DVec3;
 
+/// Square arc-minutes in a steradian.
+pub const SQUARE_ARCMIN: f64 =
+    (180.0 * 60.0 / std::f64::consts::PI) * (180.0 * 60.0 / std::f64::consts::PI);
+
 /// Solid angle in steradians of the triangle `abc` seen from the origin, positive if it turns counter-clockwise as seen from there.
 /// Van Oosterom & Strackee 1983.
 pub fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {

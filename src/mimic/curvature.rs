@@ -9,7 +9,9 @@
 use super::conditions::{Condition, plain_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, gathered};
-use super::{CurvatureOptions, Depths, SolveError, scales, seen_solid_angles, typical_width};
+use super::{
+    CurvatureOptions, Depths, SolveError, Solved, scales, seen_solid_angles, typical_width,
+};
 use crate::geom::solid_angle;
 use crate::groups::Groups;
 use crate::laplacian::FaceGeometry;
@@ -80,6 +82,10 @@ pub fn depths(
     };
     let (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
     let (s, mu) = depths(&u);
+    let solved = Solved {
+        gauge: "the area-weighted mean relative depth is 1",
+        ..solved
+    };
     Ok(Depths { s, mu, solved })
 }
 

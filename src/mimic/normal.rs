@@ -9,7 +9,7 @@ use super::conditions::{Condition, Side, log_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::{
-    Depths, FaceWeight, NormalOptions, Opening, SolveError, Tie, scales, seen_solid_angles,
+    Depths, FaceWeight, NormalOptions, Opening, SolveError, Solved, Tie, scales, seen_solid_angles,
     typical_width,
 };
 use crate::groups::Groups;
@@ -85,6 +85,14 @@ pub fn depths(
         (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
     }
     let (s, mu) = depths(&u);
+    let solved = Solved {
+        gauge: if scaled {
+            "free offsets are pulled to the model's depth"
+        } else {
+            "every piece is pulled to where its tears were found"
+        },
+        ..solved
+    };
     Ok(Depths { s, mu, solved })
 }
 

@@ -30,6 +30,8 @@ pub struct Solved {
     pub objective_first: f64,
     /// Conditions that are broken all the same.
     pub broken: usize,
+    /// What fixes the offsets that the energy leaves open.
+    pub gauge: &'static str,
 }
 
 /// A solved program.

@@ -27,8 +27,8 @@ pub struct Block {
     pub mesh: TriMesh,
     /// Corners whose depth was filled in.
     pub filled: usize,
-    /// Cells given up because their corner could not be pulled apart.
-    pub dropped: usize,
+    /// Cells of the map given up because their corner could not be pulled apart, rising.
+    pub dropped: Vec<u32>,
 }
 
 /// The solid over `cells` (rising indices) with corner depths `depth` (index: cell of the map) and a back at `back(q)`.
@@ -48,19 +48,21 @@ pub fn block(
         .copied()
         .filter(|c| depth[*c as usize].is_some())
         .collect();
-    let total = kept.len();
+    let mut dropped = Vec::new();
     loop {
         let mut field = Field::new(map, &kept, depth);
         let stuck = field.pull_apart(map, PULL_MM);
         if stuck.is_empty() {
             let filled = field.settle();
             field.lap(&hidden, lap_mm);
+            dropped.sort_unstable();
             return Block {
                 mesh: field.solid(map, back),
                 filled,
-                dropped: total - kept.len(),
+                dropped,
             };
         }
+        dropped.extend(&stuck);
         kept.retain(|c| stuck.binary_search(c).is_err());
     }
 }

@@ -1,5 +1,6 @@
 //! Every default of the scene language, and every limit. Lengths in millimetres, angles in degrees.
 
+use crate::contest::Contested;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
@@ -66,6 +67,9 @@ pub const CURVATURE: CurvatureOptions = CurvatureOptions {
     ordering: true,
 };
 pub const ENERGY: Energy = Energy::Normal(NORMAL);
+
+/// Who gets surface that two views want: with the order of the views the user decides.
+pub const CONTESTED: Contested = Contested::First;
 
 pub const PRINTER: Printer = Printer {
     nozzle: 0.4,

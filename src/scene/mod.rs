@@ -25,6 +25,7 @@ pub use schema::schema;
 pub use set::set;
 pub use template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 
+use crate::contest::Contested;
 use crate::mimic::Energy;
 use crate::steps::StepOptions;
 use crate::support::Support;
@@ -41,6 +42,8 @@ pub struct Scene {
     pub energy: Energy,
     /// `None`: the surface stays in one piece, as in the paper.
     pub steps: Option<StepOptions>,
+    /// Who gets surface that two views want.
+    pub contested: Contested,
     pub printer: Printer,
     pub output: Output,
 }

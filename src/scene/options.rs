@@ -2,10 +2,11 @@
 
 use super::defaults;
 use super::raw::{
-    RawEnergy, RawOutput, RawPrefer, RawPrinter, RawStepOptions, RawSteps, RawWeight,
+    RawContested, RawEnergy, RawOutput, RawPrefer, RawPrinter, RawStepOptions, RawSteps, RawWeight,
 };
 use super::reader::Reader;
 use super::spanned::Field;
+use crate::contest::Contested;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
@@ -114,6 +115,16 @@ fn step_options(reader: &mut Reader, raw: &RawStepOptions, default: StepOptions)
 
 fn flag(reader: &mut Reader, field: &Field<bool>, default: bool) -> bool {
     reader.given(field).map_or(default, |(value, _)| *value)
+}
+
+/// Who gets surface that two views want.
+pub fn contested(reader: &mut Reader, field: &Field<RawContested>) -> Contested {
+    match reader.given(field) {
+        Some((RawContested::First, _)) => Contested::First,
+        Some((RawContested::Largest, _)) => Contested::Largest,
+        Some((RawContested::Error, _)) => Contested::Error,
+        None => defaults::CONTESTED,
+    }
 }
 
 /// The printer the checks have in mind.

@@ -39,6 +39,7 @@ raw! {
         base: RawBase,
         depth: RawDepth,
         energy: RawEnergy,
+        contested: RawContested,
         printer: RawPrinter,
         output: RawOutput,
     }
@@ -167,6 +168,13 @@ pub enum RawPrefer {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawContested {
+    First,
+    Largest,
+    Error,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum RawWeight {
     Area,
     SolidAngle,
@@ -189,6 +197,7 @@ wanted! {
     RawEnergy => "`Normal(...)` or `Curvature(...)`";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";
+    RawContested => "First, Largest or Error";
     RawWeight => "Area or SolidAngle";
 }
 

@@ -180,6 +180,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
     let printer = options::printer(reader, &raw.printer);
     let energy = options::energy(reader, &raw.energy);
     let steps = options::steps(reader, &raw.energy, supports.pillars.len(), &printer);
+    let contested = options::contested(reader, &raw.contested);
     let output = options::output(reader, &raw.output);
     let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
     checks::all(
@@ -203,6 +204,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
         supports: supports.solids(),
         energy,
         steps,
+        contested,
         printer,
         output,
     })

@@ -101,6 +101,7 @@ fn scene_sections() -> Vec<Section> {
             field("base", "Disc(...) | Rectangle(...) | None", "Disc()", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
             field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
+            field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
             field("printer", "printer", "see printer", "what the checks have in mind"),
             field("output", "output", "see output", "which files are written"),
         ]),

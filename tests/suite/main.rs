@@ -2,6 +2,7 @@
 
 mod architecture;
 mod camouflage;
+mod certificates_coverage;
 mod cli;
 mod diagram;
 mod formats;

@@ -1,0 +1,128 @@
+//! Contests settled before solving, and what every viewer is promised afterwards.
+
+use super::Built;
+use super::elsewhere::{camouflages, confirmed_tolerance};
+use super::sight::Sight;
+use crate::certify::camouflage::Camouflage;
+use crate::certify::conflicts::{Finished, sighted};
+use crate::certify::layer::{bound_violation_mm, order_inversions};
+use crate::contest::{Claim, Contest, contested, settle};
+use crate::diag::Diagnostic;
+use crate::mimic::Optimality;
+use crate::report::{CertificateReport, ModelShare};
+use crate::scene::Scene;
+use crate::viewmap::SupportField;
+use rayon::prelude::*;
+
+/// Contests of the views, and what is left in conflict after settling them.
+pub struct Settled {
+    contests: Vec<Vec<Contest>>,
+    left_arcmin2: Vec<f64>,
+}
+
+/// Gives contested surface to one owner each.
+///
+/// # Errors
+/// If the scene wants contests to be errors, or a view is left without any surface.
+pub fn settled(
+    scene: &Scene,
+    sights: &mut [Sight],
+    field: &SupportField,
+) -> Result<Settled, Vec<Diagnostic>> {
+    let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
+    let settlement = settle(&claims, field, scene.contested)?;
+    let unchanged = settlement.lost.iter().all(Vec::is_empty);
+    let lost = sights.iter_mut().zip(settlement.lost);
+    let errors: Vec<Diagnostic> = lost
+        .filter_map(|(sight, lost)| sight.give_up(lost, field).err())
+        .collect();
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let left_arcmin2 = if unchanged {
+        vec![0.0; sights.len()]
+    } else {
+        let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
+        contested(&claims, field)
+    };
+    Ok(Settled {
+        contests: settlement.contests,
+        left_arcmin2,
+    })
+}
+
+/// What is promised of a finished forest.
+pub struct Certificates {
+    pub views: Vec<CertificateReport>,
+    pub camouflage: Vec<Camouflage>,
+    /// What of the models does not reach its viewer, in words.
+    pub unseen: Vec<Diagnostic>,
+}
+
+/// The certificates of a finished forest.
+pub fn certificates(built: &Built) -> Certificates {
+    let names = built.scene.views.iter().map(|v| v.name.as_str()).collect();
+    let finished = Finished::new(&built.forest, &built.bvh, built.field, names);
+    let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())
+        .into_par_iter()
+        .map(|v| certificate(built, v, &finished))
+        .unzip();
+    Certificates {
+        views,
+        camouflage: camouflages(built),
+        unseen: unseen.concat(),
+    }
+}
+
+/// The certificate of one view, and warnings of what does not reach it.
+fn certificate(
+    built: &Built,
+    v: usize,
+    finished: &Finished,
+) -> (CertificateReport, Vec<Diagnostic>) {
+    let (sight, shape) = (&built.sights[v], &built.shapes[v]);
+    let (relief, given_up) = (&shape.relief, &built.forest.given_up[v]);
+    let coverage = sight.coverage(built.scene, built.field, given_up);
+    let sighted = sighted(&sight.seen(), v, relief, given_up, finished);
+    let Optimality {
+        gap,
+        primal_residual,
+        dual_residual,
+        ..
+    } = shape.depths.solved.optimality;
+    let turned = order_inversions(&sight.map, &sight.target, relief);
+    let whole = coverage.solid_angle_sr();
+    let share = |lost: f64, of: f64| if of > 0.0 { lost / of } else { 0.0 };
+    let models = coverage.models.iter().zip(&sighted.lost_sr);
+    let mut unseen = coverage.warnings(&sight.view.name);
+    unseen.extend(sighted.warnings(&sight.view.name));
+    let certificate = CertificateReport {
+        bound_violation_mm: bound_violation_mm(&sight.map, built.field, &sight.groups, relief),
+        clamp_mm: relief.clamp_mm,
+        order_inversions: turned + shape.depths.solved.broken,
+        duality_gap_rel: gap,
+        primal_residual,
+        dual_residual,
+        coverage: coverage.share(),
+        reaching: coverage.share() - share(sighted.lost_sr.iter().sum(), whole),
+        models: models
+            .map(|(model, lost)| ModelShare {
+                name: model.name.clone(),
+                solid_angle_sr: model.solid_angle_sr,
+                coverage: share(model.carried_sr, model.solid_angle_sr),
+                reaching: share(model.carried_sr - lost, model.solid_angle_sr),
+            })
+            .collect(),
+        gaps: coverage.gaps,
+        small_gaps: coverage.small_gaps,
+        small_gaps_arcmin2: coverage.small_gaps_arcmin2,
+        contests: built.settled.contests[v].clone(),
+        contested_left_arcmin2: built.settled.left_arcmin2[v],
+        conflicts: sighted.disturbances,
+        small_conflicts_arcmin2: sighted.small_arcmin2,
+        filled_arcmin2: sighted.filled_arcmin2,
+        rays: sighted.rays,
+        tolerance: confirmed_tolerance(built, sight, relief),
+    };
+    (certificate, unseen)
+}

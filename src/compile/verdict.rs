@@ -1,0 +1,75 @@
+//! The verdict: what of all that a build promises does not hold.
+
+use crate::diag::Diagnostic;
+use crate::mimic::Energy;
+use crate::report::{CertificateReport, Report};
+use crate::scene::Scene;
+
+/// Lengths below this are none, millimetres: a thousandth of what f32 files resolve.
+const NOTHING_MM: f64 = 1e-6;
+/// Duality gaps and residuals of a program in its own units; solutions come out two to four digits below.
+const OPTIMAL: f64 = 1e-6;
+
+/// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
+pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let ordered = match scene.energy {
+        Energy::Normal(o) => o.ordering,
+        Energy::Curvature(o) => o.ordering,
+    };
+    let mut failures: Vec<Diagnostic> = unseen.into_iter().map(Diagnostic::into_error).collect();
+    for view in &report.views {
+        if let Some(certificate) = &view.certificate {
+            of_view(&view.name, certificate, ordered, &mut failures);
+        }
+    }
+    if let Some(solid) = report.solid.as_ref().filter(|s| s.parts > 1) {
+        failures.push(
+            Diagnostic::error(format!(
+                "the forest comes apart into {} pieces",
+                solid.parts
+            ))
+            .help("a pillar that stands outside the base, or no base at all, leaves pieces loose"),
+        );
+    }
+    failures
+}
+
+fn of_view(name: &str, found: &CertificateReport, ordered: bool, failures: &mut Vec<Diagnostic>) {
+    let mut fail = |holds: bool, text: String, help: &str| {
+        if !holds {
+            failures.push(Diagnostic::error(format!("view \"{name}\": {text}")).help(help));
+        }
+    };
+    let outside = found.bound_violation_mm.max(found.clamp_mm);
+    fail(
+        outside <= NOTHING_MM,
+        format!("its relief would leave the layer by {outside:.6} mm"),
+        "thicker layers (`front`, `back`) leave the solver more room",
+    );
+    fail(
+        !ordered || found.order_inversions == 0,
+        format!(
+            "farther parts of its models come before nearer ones in {} places",
+            found.order_inversions
+        ),
+        "thicker layers (`front`, `back`) leave the solver more room; `ordering: false` in `energy` allows it",
+    );
+    let gap = (found.duality_gap_rel)
+        .max(found.primal_residual)
+        .max(found.dual_residual);
+    fail(
+        gap <= OPTIMAL,
+        format!(
+            "its depths are not proved to be the best ones (residual {gap:.1e}, wanted {OPTIMAL:.0e})"
+        ),
+        "models with needle-thin faces make programs that cannot be solved exactly",
+    );
+    fail(
+        found.contested_left_arcmin2 == 0.0,
+        format!(
+            "{:.1} square arc-minutes are still contested",
+            found.contested_left_arcmin2
+        ),
+        "move pillars of different views apart",
+    );
+}
