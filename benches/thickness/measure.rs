@@ -42,7 +42,7 @@ pub fn errors(scene: &Scene, view: &View, seen: &Seen) -> Result<Errors, String>
         let relief = relief(&torn.map, &torn.target, &field, &torn.groups, &torn.depths);
         return Ok(normal_errors(&torn.map, &torn.target, &relief));
     }
-    let depths = depths(scene.energy, target, map, &field, &groups).map_err(|e| e.to_string())?;
+    let depths = depths(scene.energy, target, map, &groups).map_err(|e| e.to_string())?;
     let relief = relief(map, target, &field, &groups, &depths);
     Ok(normal_errors(map, target, &relief))
 }

@@ -124,7 +124,7 @@ impl Sight<'_> {
                 steps: Some((torn.lines, torn.summary)),
             });
         }
-        let depths = depths(scene.energy, target, map, field, groups).map_err(explained)?;
+        let depths = depths(scene.energy, target, map, groups).map_err(explained)?;
         Ok(Shape {
             relief: relief(map, target, field, groups, &depths),
             depths,

@@ -25,7 +25,7 @@ pub use program::{Program, Row, RowKind};
 pub use solve::{Solution, SolveError, Solved, solve};
 
 use crate::groups::Groups;
-use crate::viewmap::{SupportField, Target, ViewMap};
+use crate::viewmap::{Target, ViewMap};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +80,6 @@ pub fn depths(
     energy: Energy,
     target: &Target,
     map: &ViewMap,
-    field: &SupportField,
     groups: &Groups,
 ) -> Result<Depths, SolveError> {
     let ordered = match energy {
@@ -88,7 +87,7 @@ pub fn depths(
         Energy::Curvature(o) => o.ordering,
     };
     let orders = if ordered {
-        orders(target, map, field, groups)
+        orders(target, map, groups)
     } else {
         Orders::default()
     };

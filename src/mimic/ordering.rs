@@ -14,7 +14,7 @@
 
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, Groups, anchor};
-use crate::viewmap::{SupportField, Target, ViewMap};
+use crate::viewmap::{Target, ViewMap};
 use glam::DVec2;
 
 /// Pairs nearer than this share of the model's depth touch rather than overlap: an order between them only adds noise.
@@ -41,12 +41,11 @@ pub struct Orders {
     pub nearest: usize,
 }
 
-/// Orders at all events of one view, on rays that meet a support which carries both faces.
-pub fn orders(target: &Target, map: &ViewMap, field: &SupportField, groups: &Groups) -> Orders {
+/// Orders at all events of one view, for every support that carries both faces; and at the ends of sides of cells where sheets
+/// meet in the relief: merging thin cells has moved some of these off their faces.
+pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
     let finder = Finder {
         target,
-        map,
-        field,
         lookup: FaceGroups::new(map, groups),
     };
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
@@ -56,27 +55,73 @@ pub fn orders(target: &Target, map: &ViewMap, field: &SupportField, groups: &Gro
     }
     vertices.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     // Both faces of an edge tell of its crossings.
-    edges.sort_by_key(|e: &(EdgePair, Order)| e.0);
-    edges.dedup_by_key(|e| e.0);
+    edges.sort_by_key(|e: &(EdgePair, Order)| (e.0, e.1.front_group, e.1.back_group));
+    edges.dedup_by_key(|e| (e.0, e.1.front_group, e.1.back_group));
     let is_nearest = |i: &usize| *i == 0 || vertices[*i - 1].0 != vertices[*i].0;
     let (nearest, others): (Vec<usize>, Vec<usize>) =
         (0..vertices.len()).partition(|i| is_nearest(i));
     let of_vertices = nearest.iter().chain(&others).map(|i| vertices[*i].2);
     Orders {
-        all: of_vertices.chain(edges.iter().map(|e| e.1)).collect(),
+        all: of_vertices
+            .chain(edges.iter().map(|e| e.1))
+            .chain(at_sides(target, map, groups))
+            .collect(),
         nearest: nearest.len(),
     }
 }
 
+/// Orders at both ends of all sides at which sheets of one support meet.
+fn at_sides(target: &Target, map: &ViewMap, groups: &Groups) -> Vec<Order> {
+    let mut orders = Vec::new();
+    for (c, cell) in map.cells.iter().enumerate() {
+        for (k, n) in map.neighbours[c].iter().enumerate() {
+            let Some(n) = n.filter(|n| *n as usize > c).map(|n| n as usize) else {
+                continue;
+            };
+            let (Some(face), Some(other)) = (cell.face, map.cells[n].face) else {
+                continue;
+            };
+            let (Some(g), Some(h)) = (groups.of_cell[c], groups.of_cell[n]) else {
+                continue;
+            };
+            if face == other || cell.support != map.cells[n].support {
+                continue;
+            }
+            for end in [k, (k + 1) % 3] {
+                let q = map.points[cell.corners[end] as usize];
+                let at = [face, other].map(|f| anchor(target, f as usize, q));
+                orders.extend(order(at, [g, h]).map(|o| o.1));
+            }
+        }
+    }
+    orders
+}
+
+/// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they touch.
+fn order(at: [(Anchor, f64); 2], groups: [u32; 2]) -> Option<(bool, Order)> {
+    let [own, other] = at.map(|a| a.1);
+    if (own - other).abs() < APART * own.max(other) {
+        return None;
+    }
+    let behind = own > other;
+    let (front, back) = if behind { (1, 0) } else { (0, 1) };
+    let order = Order {
+        front: at[front].0,
+        front_group: groups[front],
+        back: at[back].0,
+        back_group: groups[back],
+        ratio: at[front].1 / at[back].1,
+    };
+    Some((behind, order))
+}
+
 /// The vertices of two edges, each pair rising.
 type EdgePair = [[u32; 2]; 2];
-/// A vertex and whether it is behind a face; how far, relatively; the order of both.
-type VertexEvent = ((u32, bool), f64, Order);
+/// A vertex, its group and whether it is behind a face; how far, relatively; the order of both.
+type VertexEvent = ((u32, u32, bool), f64, Order);
 
 struct Finder<'a> {
     target: &'a Target,
-    map: &'a ViewMap,
-    field: &'a SupportField<'a>,
     lookup: FaceGroups,
 }
 
@@ -93,8 +138,13 @@ impl Finder<'_> {
                 if !inside || faces[other].contains(&v) {
                     continue;
                 }
-                if let Some((behind, order)) = self.order([pair[own], pair[other]], q) {
-                    events.push(((v, behind), -order.ratio, order));
+                for (behind, order) in self.orders([pair[own], pair[other]], q) {
+                    let group = if behind {
+                        order.back_group
+                    } else {
+                        order.front_group
+                    };
+                    events.push(((v, group, behind), -order.ratio, order));
                 }
             }
         }
@@ -116,38 +166,24 @@ impl Finder<'_> {
             }
             let [a, b] = [images[0][i], images[0][(i + 1) % 3]];
             let crossing = segment_crossing(a, b, images[1][j], images[1][(j + 1) % 3]);
-            if let Some((_, order)) = crossing.and_then(|t| self.order(pair, a.lerp(b, t))) {
+            if let Some(t) = crossing {
                 sides.sort_unstable();
-                events.push((sides, order));
+                let orders = self.orders(pair, a.lerp(b, t)).into_iter();
+                events.extend(orders.map(|(_, order)| (sides, order)));
             }
         }
         events
     }
 
-    /// The order of two faces on the ray `q`, and whether the first is behind; `None` if they touch there, or no support
-    /// carries both.
-    fn order(&self, faces: [u32; 2], q: DVec2) -> Option<(bool, Order)> {
-        let at = faces.map(|f| anchor(self.target, f as usize, q));
-        let [own, other] = at.map(|a| a.1);
-        if (own - other).abs() < APART * own.max(other) {
-            return None;
+    /// The order of two faces on the ray `q` on every support that carries both, and whether the first is behind. The ray need
+    /// not meet the support: where an outline cuts the polygon, its far corners hold the rest in order.
+    fn orders(&self, faces: [u32; 2], q: DVec2) -> Vec<(bool, Order)> {
+        let common = self.lookup.common(faces);
+        if common.is_empty() {
+            return Vec::new();
         }
-        let direction = self.map.plane.direction(q);
-        let (support, _) = self.field.first_hit(self.map.plane.eye, direction)?;
-        let groups = [
-            self.lookup.get(faces[0], support)?,
-            self.lookup.get(faces[1], support)?,
-        ];
-        let behind = own > other;
-        let (front, back) = if behind { (1, 0) } else { (0, 1) };
-        let order = Order {
-            front: at[front].0,
-            front_group: groups[front],
-            back: at[back].0,
-            back_group: groups[back],
-            ratio: at[front].1 / at[back].1,
-        };
-        Some((behind, order))
+        let at = faces.map(|f| anchor(self.target, f as usize, q));
+        common.iter().filter_map(|g| order(at, *g)).collect()
     }
 }
 
@@ -195,13 +231,19 @@ impl FaceGroups {
         Self { entries }
     }
 
-    fn get(&self, face: u32, support: u32) -> Option<u32> {
-        let i = self
-            .entries
-            .partition_point(|e| (e.0, e.1) < (face, support));
-        self.entries
-            .get(i)
-            .filter(|e| (e.0, e.1) == (face, support))
-            .map(|e| e.2)
+    fn of(&self, face: u32) -> &[(u32, u32, u32)] {
+        let first = self.entries.partition_point(|e| e.0 < face);
+        let past = self.entries.partition_point(|e| e.0 <= face);
+        &self.entries[first..past]
+    }
+
+    /// The groups of two faces on every support that carries both.
+    fn common(&self, [a, b]: [u32; 2]) -> Vec<[u32; 2]> {
+        let mut pairs = Vec::new();
+        for x in self.of(a) {
+            let same = self.of(b).iter().filter(|y| x.1 == y.1);
+            pairs.extend(same.map(|y| [x.2, y.2]));
+        }
+        pairs
     }
 }

@@ -470,7 +470,7 @@ impl<'a> Built<'a> {
     fn new(field: &'a SupportField<'a>, sights: Vec<Sight>) -> Self {
         let of_sight = |s: &Sight| {
             let depths =
-                depths(defaults::ENERGY, &s.target, &s.map, field, &s.groups).expect("depths");
+                depths(defaults::ENERGY, &s.target, &s.map, &s.groups).expect("depths");
             relief(&s.map, &s.target, field, &s.groups, &depths)
         };
         let reliefs: Vec<Relief> = sights.iter().map(of_sight).collect();

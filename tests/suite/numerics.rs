@@ -80,7 +80,7 @@ impl Setting {
         let (target, map) = self.seen();
         let field = SupportField::new(&self.supports);
         let groups = groups("test", &map, &target, &field).expect("groups");
-        let depths = depths(energy, &target, &map, &field, &groups).expect("depths");
+        let depths = depths(energy, &target, &map, &groups).expect("depths");
         let relief = relief(&map, &target, &field, &groups, &depths);
         Outcome {
             target,

@@ -96,7 +96,7 @@ fn torn_error(setting: &Setting, steps: &StepOptions) -> f64 {
 fn whole_error(setting: &Setting) -> f64 {
     let (target, map, groups) = found(setting);
     let field = SupportField::new(&setting.supports);
-    let depths = depths(Energy::Normal(NORMAL), &target, &map, &field, &groups).expect("depths");
+    let depths = depths(Energy::Normal(NORMAL), &target, &map, &groups).expect("depths");
     let relief = relief(&map, &target, &field, &groups, &depths);
     error_deg(&target, &map, &relief)
 }

@@ -60,7 +60,7 @@ impl Seen {
         let map = view_map(plane, &target, &field).expect("a map");
         let groups = groups("test", &map, &target, &field).expect("groups");
         let energy = Energy::Normal(NORMAL);
-        let depths = depths(energy, &target, &map, &field, &groups).expect("depths");
+        let depths = depths(energy, &target, &map, &groups).expect("depths");
         let relief = relief(&map, &target, &field, &groups, &depths);
         Self {
             target,
