@@ -3,6 +3,7 @@
 //! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
+use crate::certify::printability::PrintCheck;
 use crate::mesh::Solid;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
@@ -19,6 +20,9 @@ pub struct Report {
     pub views: Vec<ViewReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solid: Option<SolidReport>,
+    /// Whether it can be printed; empty if nothing was built.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub print: Vec<PrintCheck>,
     pub warnings: Vec<String>,
     /// Only on request: it differs from run to run.
     #[serde(skip_serializing_if = "Option::is_none")]

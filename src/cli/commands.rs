@@ -25,8 +25,16 @@ pub fn run(cli: &Cli) -> u8 {
     match &cli.command {
         Command::Init { scene, force } => init(&messages, scene, *force),
         Command::Check { scene } => check(&messages, &cli.global, scene),
-        Command::Build { scene, output } => {
-            make(&messages, &cli.global, scene, output.as_deref(), Goal::All)
+        Command::Build {
+            scene,
+            output,
+            split,
+        } => {
+            let mut scene = scene.clone();
+            if *split {
+                scene.sets.push("output.split=true".into());
+            }
+            make(&messages, &cli.global, &scene, output.as_deref(), Goal::All)
         }
         Command::View { scene, output } => {
             make(&messages, &cli.global, scene, output.as_deref(), Goal::Plan)
@@ -247,6 +255,11 @@ fn make(
     let Some(loaded) = load(messages, args) else {
         return WRONG_INPUT;
     };
+    if goal == Goal::All && loaded.scene.output.split && matches!(target, Target::File(_)) {
+        let problem = Diagnostic::error("`--split` writes many files, and `-o` names only one")
+            .help("give a directory: `-o out/pieces`");
+        return fail(messages, &[problem], None, WRONG_USAGE);
+    }
     let (build, reporter) = match compile(messages, global, args, &loaded, goal) {
         Ok(done) => done,
         Err(code) => return code,

@@ -95,6 +95,9 @@ pub enum Command {
         /// Directory for all files, or one file whose ending picks the format (.3mf .stl .glb .svg .png .json) [default: out/<scene>]
         #[arg(short, long, value_hint = ValueHint::AnyPath)]
         output: Option<PathBuf>,
+        /// Also write the forest in pieces: plates that fit the bed, with pins and numbered sockets, each pillar with a peg, and layout.svg at 1:1
+        #[arg(long)]
+        split: bool,
     },
     /// Draw only the plan: the forest from above with what every eye sees
     View {
@@ -130,7 +133,7 @@ pub enum Command {
     },
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]

@@ -5,7 +5,9 @@
 
 mod files;
 mod pictures;
+mod print;
 mod sight;
+mod split;
 mod summary;
 
 use crate::carve::{Forest, ViewRelief, carve};
@@ -14,8 +16,10 @@ use crate::scene::Scene;
 use crate::viewmap::SupportField;
 use files::{counts, file, plan_files, printable_files, summary};
 use pictures::{picture_files, pictures};
+use print::print_checks;
 use rayon::prelude::*;
 use sight::see;
+use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 
 /// A file to be written, relative to the output directory.
@@ -92,7 +96,21 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     warnings.extend(loose(&forest));
     progress("pictures", 0.75);
     let pictures = pictures(scene, &shapes, &forest);
-    let report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
+    if wanted(scene, goal) {
+        progress("pieces", 0.8);
+    }
+    let split = wanted(scene, goal)
+        .then(|| pieces(scene, &forest).map_err(|e| vec![e]))
+        .transpose()?;
+    warnings.extend(split.iter().flat_map(remarks));
+    progress("print checks", 0.87);
+    let print = print_checks(
+        scene,
+        &forest,
+        &split.as_ref().map_or_else(Vec::new, bodies),
+    );
+    let mut report = report(scene, &sights, &shapes, &forest, &pictures, &warnings);
+    report.print = print;
     progress("files", 0.9);
     let summary = summary(scene, &forest, &pictures);
     let mut files = Vec::new();
@@ -102,6 +120,9 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
             files.extend(plan_files(scene));
         }
         files.push(file("report.json", report.json().into_bytes()));
+        if let Some(split) = &split {
+            files.extend(split_files(scene, split).map_err(|e| vec![e])?);
+        }
     }
     let views = goal == Goal::Pictures || scene.output.views;
     files.extend(picture_files(scene, pictures, views));
@@ -111,6 +132,11 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         printable: forest.whole.parts() == 1,
         warnings,
     })
+}
+
+/// Whether the forest is to be written in pieces too.
+fn wanted(scene: &Scene, goal: Goal) -> bool {
+    goal == Goal::All && scene.output.split
 }
 
 /// A forest must be one piece.

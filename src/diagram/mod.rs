@@ -6,6 +6,7 @@
 
 pub mod drawing;
 mod footer;
+mod layout;
 pub mod lettering;
 mod map;
 mod page;
@@ -13,6 +14,7 @@ pub mod raster;
 mod sight;
 mod svg;
 
+pub use layout::layout;
 pub use sight::{Run, Sight};
 
 use crate::diagram::drawing::Drawing;

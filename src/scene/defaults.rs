@@ -70,6 +70,7 @@ pub const ENERGY: Energy = Energy::Normal(NORMAL);
 pub const PRINTER: Printer = Printer {
     nozzle: 0.4,
     bed: [256.0, 256.0, 256.0],
+    clearance: 0.15,
 };
 
 pub const OUTPUT: Output = Output {
@@ -79,6 +80,7 @@ pub const OUTPUT: Output = Output {
     plan: true,
     views: true,
     lights: true,
+    split: false,
     picture_size: 640,
     plan_width: 2000,
 };

@@ -51,6 +51,8 @@ pub struct Printer {
     pub nozzle: f64,
     /// Width, depth, height of the build volume.
     pub bed: [f64; 3],
+    /// Room between what is to be put together.
+    pub clearance: f64,
 }
 
 /// Which files a build writes, and how large its pictures are.
@@ -63,6 +65,8 @@ pub struct Output {
     pub views: bool,
     /// Figures and pictures of the views in real light.
     pub lights: bool,
+    /// The forest in pieces too.
+    pub split: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

@@ -124,6 +124,9 @@ pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
     let nozzle = reader
         .length_from(&raw.nozzle, "nozzle", 0.05)
         .map_or(defaults::PRINTER.nozzle, |(v, _)| v);
+    let clearance = reader
+        .length_from(&raw.clearance, "clearance", 0.0)
+        .map_or(defaults::PRINTER.clearance, |(v, _)| v);
     let bed = reader.point_field(&raw.bed, "bed");
     if let Some((_, span)) = bed.as_ref().filter(|(b, _)| b.iter().any(|v| *v < 10.0)) {
         reader.error(
@@ -134,6 +137,7 @@ pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
     Printer {
         nozzle,
         bed: bed.map_or(defaults::PRINTER.bed, |(b, _)| b),
+        clearance,
     }
 }
 
@@ -152,6 +156,7 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         plan: flag(reader, &raw.plan, under.plan),
         views: flag(reader, &raw.views, under.views),
         lights: flag(reader, &raw.lights, under.lights),
+        split: flag(reader, &raw.split, under.split),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }
