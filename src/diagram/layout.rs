@@ -121,6 +121,9 @@ fn pillars(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support], split: &S
         };
         let points: Vec<DVec2> = profile.iter().map(|p| sheet.at(*p)).collect();
         drawing.polygon(&points, Some(PAPER), Some(Pen::new(TEXT, 2.0 * FINE)));
+        if let Some(key) = socket.key {
+            drawing.polyline(&key.map(|p| sheet.at(p)), pen);
+        }
         let middle = sheet.at(*axis);
         for way in [DVec2::X, DVec2::Y] {
             drawing.polyline(&[middle - CROSS * way, middle + CROSS * way], pen);

@@ -123,6 +123,19 @@ impl Foot {
         Boolean::hull(&points.collect::<Vec<_>>())
     }
 
+    /// Where the key crosses the pillar's outline at the peg's end.
+    pub fn key_line(&self) -> Option<[DVec2; 2]> {
+        let ring = self.ring();
+        let sides = self.clipped(&ring[0]);
+        let on = |p: &DVec2| (self.beyond(*p)).abs() < 1e-9;
+        sides.into_iter().find(|s| s.iter().all(on))
+    }
+
+    /// How far a point lies beyond the key at the peg's end, millimetres.
+    fn beyond(&self, p: DVec2) -> f64 {
+        (p - self.axis).dot(self.way) - self.key.0
+    }
+
     /// The largest circle in the peg's end.
     pub fn end(&self) -> Option<Circle> {
         let rings = self.outline(-2.0 * SLIM_MM);
@@ -132,11 +145,10 @@ impl Foot {
 
     /// The sides of a ring on this side of the key's end.
     fn clipped(&self, ring: &[[f64; 2]]) -> Vec<[DVec2; 2]> {
-        let beyond = |p: DVec2| (p - self.axis).dot(self.way) - self.key.0;
         let mut points = Vec::new();
         for (k, a) in ring.iter().enumerate() {
             let (a, b) = (DVec2::from(*a), DVec2::from(ring[(k + 1) % ring.len()]));
-            let (da, db) = (beyond(a), beyond(b));
+            let (da, db) = (self.beyond(a), self.beyond(b));
             if da <= 0.0 {
                 points.push(a);
             }

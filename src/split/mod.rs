@@ -92,6 +92,8 @@ pub struct Socket {
     pub support: usize,
     /// Middle and stroke of the number on the plate, millimetres, if there is room for it.
     pub label: Option<(DVec2, f64)>,
+    /// The key at the peg's end, across the pillar; none without a base.
+    pub key: Option<[DVec2; 2]>,
 }
 
 /// Why there are no pieces.
@@ -149,6 +151,9 @@ pub fn split(
                 number: k + 1,
                 support: *s,
                 label: None,
+                key: Foot::new(&supports[*s], DVec2::ZERO, depth)
+                    .filter(|_| depth > 0.0)
+                    .and_then(|f| f.key_line()),
             })
             .collect(),
     };

@@ -215,13 +215,10 @@ fn sockets_and_numbers_take_out_what_they_should() {
     let end = (0.6 * reach).max(top - 0.9 * DEPTH);
     let lean = (top - end) / DEPTH;
     let out = c * lean.hypot(1.0);
-    let (h0, h1) = (corner - end - out, (corner - top - out).max(0.0));
-    assert_eq!(
-        h1,
-        corner - top - out,
-        "the line meets the square up to the top"
-    );
-    let cut = DEPTH * (h0 * h0 + h0 * h1 + h1 * h1) / 3.0;
+    // The line leaves the square a little below the top.
+    let h = corner - end - out;
+    assert!(h / lean < DEPTH);
+    let cut = h.powi(3) / (3.0 * lean);
     let socket = 2.0 * corner * corner * DEPTH - cut;
     let expected = 60.0 * 50.0 * THICKNESS - socket - numbers(&split);
     near(plate.solid.volume_mm3(), expected, 2e-2);
@@ -368,6 +365,10 @@ fn the_layout_is_at_true_size_and_names_every_pillar() {
         );
     }
     assert!(svg.contains("50 mm"));
+    // The first pillar's key: a chord at 0.6 of its radius.
+    let [a, b] = split.sockets[0].key.unwrap();
+    near(a.x, -40.0 + 0.6 * 4.0, 1e-6);
+    near(a.distance(b), 2.0 * 0.8 * 4.0, 0.02);
     // The cut, 3 mm beyond the base on both sides.
     let x = split.cuts.x[0] + 75.0 + 18.0;
     assert!(svg.contains(&format!("M{x} 86L{x} 20")), "{svg}");
