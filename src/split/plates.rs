@@ -30,7 +30,7 @@ pub struct Slab<'a> {
     pub clearance: f64,
 }
 
-/// How the base is cut: `None` outside of the grid's lines.
+/// How the base is cut: a grid; empty for one plate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuts {
     /// Where cuts along y lie, and those along x, rising.

@@ -26,7 +26,7 @@ const MOST_SAMPLES: f64 = 200_000.0;
 const LIP_MM: f64 = 2.0;
 /// Walls of fewer nozzles than this are not printed at all (0.65 mm at 0.4 mm, by trial).
 const VANISH_NOZZLES: f64 = 1.625;
-/// Smaller walls are not missed, square millimetres of one side. Where a relief ends at a pillar's outline, films of a few hundredths
+/// Smaller walls are not missed, square millimetres of one side. Where a relief ends at a pillar's outline, films of some hundredths
 /// of a millimetre are left between two cuts along an eye's rays: up to 16 mm2 on the bundled scenes. They are not printed, and as
 /// the eye sees them edge-on it loses nothing. A pillar or plate that is too thin is larger by far.
 pub const MISSED_MM2: f64 = 25.0;
