@@ -13,7 +13,7 @@ use crate::view::View;
 use glam::DVec2;
 
 /// Around the forest, and below it for bar and notes, millimetres.
-const MARGIN: f64 = 18.0;
+const MARGIN: f64 = 24.0;
 const FOOT: f64 = 16.0;
 /// The bar's length, millimetres.
 const BAR: f64 = 50.0;
@@ -180,7 +180,11 @@ fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
         };
         let room = half + 1.0;
         let at = DVec2::new(at.x.clamp(room, (sheet.size.x - room).max(room)), at.y);
-        drawing.text(at, &text, style(SMALL, ink, Anchor::Middle));
+        let words = TextStyle {
+            halo: Some(PAPER),
+            ..style(SMALL, ink, Anchor::Middle)
+        };
+        drawing.text(at, &text, words);
     }
 }
 

@@ -356,8 +356,8 @@ fn the_layout_is_at_true_size_and_names_every_pillar() {
     let supports = grove();
     let split = divided(&supports);
     let svg = layout("A <grove>", &[], &supports, &split).svg();
-    // 150 x 60 mm of base, 18 mm around it, 16 and 5 mm for bar and title.
-    assert!(svg.contains("width=\"186mm\" height=\"117mm\" viewBox=\"0 0 186 117\""));
+    // 150 x 60 mm of base, 24 mm around it, 16 and 5 mm for bar and title.
+    assert!(svg.contains("width=\"198mm\" height=\"129mm\" viewBox=\"0 0 198 129\""));
     for number in 1..=4 {
         assert!(
             svg.contains(&format!("aria-label=\"{number}\"")),
@@ -370,8 +370,8 @@ fn the_layout_is_at_true_size_and_names_every_pillar() {
     near(a.x, -40.0 + 0.6 * 4.0, 1e-6);
     near(a.distance(b), 2.0 * 0.8 * 4.0, 0.02);
     // The cut, 3 mm beyond the base on both sides.
-    let x = split.cuts.x[0] + 75.0 + 18.0;
-    assert!(svg.contains(&format!("M{x} 86L{x} 20")), "{svg}");
+    let x = split.cuts.x[0] + 75.0 + 24.0;
+    assert!(svg.contains(&format!("M{x} 92L{x} 26")), "{svg}");
 }
 
 #[test]

@@ -13,7 +13,8 @@
 //!
 //! - `wall`: 2.25 nozzles wanted, the width of two printed lines that overlap; from 1.6 nozzles down slicers print nothing at all. A
 //!   lip is no wall, and what is too small to be missed does not count (see `walls`); the note tells how much will be missing.
-//! - `gap` between pillars: 0.5 nozzles wanted, below 0.25 nozzles two pillars fuse. Slots within one pillar may close without harm.
+//! - `gap` between pillars: 0.5 nozzles wanted, below 0.25 nozzles two pillars fuse. Reliefs that meet on purpose, spots,
+//!   and slots within one pillar do not count.
 //! - `overhang`: how far reliefs stand out over nothing. 3 nozzles are printed freely, more needs a slicer's supports; the limit is
 //!   what a single tower of them holds.
 //! - `slenderness`: the least width against a given share of the height.
