@@ -14,8 +14,10 @@ use rayon::prelude::*;
 
 /// Room between pieces in the 3MF, millimetres.
 const SPACING_MM: f64 = 6.0;
-/// Their places are multiples of this, millimetres: coordinates keep their digits.
-const GRAIN_MM: f64 = 1.0 / 64.0;
+/// Farther from the origin f32 is coarser, and a sliver may turn over: about one piece in fifty does. It is then put down a little
+/// aside, where it is rounded in another way.
+const NUDGE_MM: DVec3 = DVec3::new(0.0137, 0.0093, 0.0);
+const NUDGES: usize = 16;
 
 /// Divides the forest for the scene's printer.
 ///
@@ -118,10 +120,14 @@ pub fn split_files(scene: &Scene, split: &Split) -> Result<Vec<OutputFile>, Diag
 fn spread(split: &Split) -> Result<Vec<Solid>, Diagnostic> {
     let places = places(split);
     let put = |(piece, at): (&crate::split::Piece, &DVec3)| {
-        let mesh = piece.solid.mesh();
-        let mesh = mesh.transformed(DMat4::from_translation(*at));
-        let solid = Solid::new(mesh.clone()).or_else(|_| Solid::new(mend(&mesh)));
-        solid.map_err(|_| {
+        let by = |k: usize| DMat4::from_translation(*at + k as f64 * NUDGE_MM);
+        let moved = |k| piece.solid.mesh().transformed(by(k));
+        let try_at = |k| {
+            let mesh = moved(k);
+            let mended = || Solid::new(mend(&mesh));
+            Solid::new(mesh.clone()).or_else(|_| mended()).ok()
+        };
+        (0..NUDGES).find_map(try_at).ok_or_else(|| {
             Diagnostic::error(format!("{} is unsound where the 3MF puts it", piece.name))
         })
     };
@@ -143,7 +149,7 @@ fn places(split: &Split) -> Vec<DVec3> {
             (x, y, row) = (0.0, y + row, 0.0);
         }
         let at = DVec3::new(x - width / 2.0 - lo.x, y - width / 2.0 - lo.y, 0.0);
-        places.push((at / GRAIN_MM).round() * GRAIN_MM);
+        places.push(at);
         x += size.x;
         row = row.max(size.y);
     }
