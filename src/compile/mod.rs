@@ -121,7 +121,9 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
         }
         files.push(file("report.json", report.json().into_bytes()));
         if let Some(split) = &split {
-            files.extend(split_files(scene, split).map_err(|e| vec![e])?);
+            let (pieces, warning) = split_files(scene, split);
+            files.extend(pieces);
+            warnings.extend(warning);
         }
     }
     let views = goal == Goal::Pictures || scene.output.views;

@@ -8,16 +8,14 @@ use crate::diagram::layout;
 use crate::formats::{Metadata, Part, write_3mf, write_stl};
 use crate::mesh::{Solid, mend};
 use crate::scene::Scene;
-use crate::split::{Split, SplitError, SplitOptions, split};
+use crate::split::{Piece, Split, SplitError, SplitOptions, split};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 /// Room between pieces in the 3MF, millimetres.
 const SPACING_MM: f64 = 6.0;
-/// Farther from the origin f32 is coarser, and a sliver may turn over: about one piece in fifty does. It is then put down a little
-/// aside, where it is rounded in another way.
-const NUDGE_MM: DVec3 = DVec3::new(0.0137, 0.0093, 0.0);
-const NUDGES: usize = 16;
+/// Their places are multiples of this, millimetres: up to 256 mm from the origin that moves them exactly.
+const GRAIN_MM: f64 = 1.0 / 64.0;
 
 /// Divides the forest for the scene's printer.
 ///
@@ -80,18 +78,38 @@ pub fn remarks(split: &Split) -> Vec<Diagnostic> {
     remarks
 }
 
-/// `layout.svg`, `split.3mf` with every piece as an object, and an STL for each in `split/`.
-///
-/// # Errors
-/// If a piece is not sound where the 3MF puts it.
-pub fn split_files(scene: &Scene, split: &Split) -> Result<Vec<OutputFile>, Diagnostic> {
+/// `layout.svg`, an STL for each piece in `split/`, and `split.3mf` with every piece as an object; the last is left out, with a
+/// warning, if rounding upsets a piece where it would stand.
+pub fn split_files(scene: &Scene, split: &Split) -> (Vec<OutputFile>, Option<Diagnostic>) {
     let page = layout(&scene.title, &scene.views, &scene.supports, split);
     let mut files = vec![file("layout.svg", page.svg().into_bytes())];
-    let placed = spread(split)?;
+    files.extend(split.pieces.iter().map(|piece| {
+        let title = format!("{}, {}", scene.title, piece.says);
+        file(
+            format!("split/{}.stl", piece.name),
+            write_stl(&piece.solid, &title),
+        )
+    }));
+    match spread(split) {
+        Ok(placed) => {
+            files.push(file("split.3mf", three_mf(scene, split, &placed)));
+            (files, None)
+        }
+        Err(name) => {
+            let text = format!("split.3mf is left out: {name} is not sound beside the others");
+            (
+                files,
+                Some(Diagnostic::warning(text).help("the files in split/ are complete")),
+            )
+        }
+    }
+}
+
+fn three_mf(scene: &Scene, split: &Split, placed: &[Solid]) -> Vec<u8> {
     let parts: Vec<Part> = split
         .pieces
         .iter()
-        .zip(&placed)
+        .zip(placed)
         .map(|(piece, solid)| Part {
             name: piece.says.clone(),
             colour: BARE_COLOUR,
@@ -105,31 +123,17 @@ pub fn split_files(scene: &Scene, split: &Split) -> Result<Vec<OutputFile>, Diag
         application: format!("pillarforest {}", env!("CARGO_PKG_VERSION")),
         ..Metadata::default()
     };
-    files.push(file("split.3mf", write_3mf(&parts, &meta, None)));
-    files.extend(split.pieces.iter().map(|piece| {
-        let title = format!("{}, {}", scene.title, piece.says);
-        file(
-            format!("split/{}.stl", piece.name),
-            write_stl(&piece.solid, &title),
-        )
-    }));
-    Ok(files)
+    write_3mf(&parts, &meta, None)
 }
 
-/// The pieces side by side in rows, about the origin.
-fn spread(split: &Split) -> Result<Vec<Solid>, Diagnostic> {
+/// The pieces side by side in rows, about the origin; or the name of one that is not sound there.
+fn spread(split: &Split) -> Result<Vec<Solid>, String> {
     let places = places(split);
-    let put = |(piece, at): (&crate::split::Piece, &DVec3)| {
-        let by = |k: usize| DMat4::from_translation(*at + k as f64 * NUDGE_MM);
-        let moved = |k| piece.solid.mesh().transformed(by(k));
-        let try_at = |k| {
-            let mesh = moved(k);
-            let mended = || Solid::new(mend(&mesh));
-            Solid::new(mesh.clone()).or_else(|_| mended()).ok()
-        };
-        (0..NUDGES).find_map(try_at).ok_or_else(|| {
-            Diagnostic::error(format!("{} is unsound where the 3MF puts it", piece.name))
-        })
+    let put = |(piece, at): (&Piece, &DVec3)| {
+        let mesh = piece.solid.mesh();
+        let mesh = mesh.transformed(DMat4::from_translation(*at));
+        let solid = Solid::new(mesh.clone()).or_else(|_| Solid::new(mend(&mesh)));
+        solid.map_err(|_| piece.name.clone())
     };
     split.pieces.par_iter().zip(&places).map(put).collect()
 }
@@ -149,7 +153,7 @@ fn places(split: &Split) -> Vec<DVec3> {
             (x, y, row) = (0.0, y + row, 0.0);
         }
         let at = DVec3::new(x - width / 2.0 - lo.x, y - width / 2.0 - lo.y, 0.0);
-        places.push(at);
+        places.push((at / GRAIN_MM).round() * GRAIN_MM);
         x += size.x;
         row = row.max(size.y);
     }

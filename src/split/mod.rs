@@ -41,6 +41,11 @@ const NUMBER_MARGIN_MM: f64 = 0.8;
 const NUMBER_WAYS: usize = 24;
 /// More plates than this are refused: the bed is meant for something else.
 const MOST_PLATES: usize = 256;
+/// A place, millimetres, where coordinates are as coarse as anywhere up to 256 mm from the origin.
+const FAR: DVec3 = DVec3::new(192.0, 192.0, 0.0);
+/// Pieces that do not come out sound there are tried again this little aside, millimetres: less than a step of f32.
+const NUDGE: DVec3 = DVec3::new(3.1e-6, 4.7e-6, 0.0);
+const NUDGES: u32 = 4;
 /// Pillars have met if they share more than this, cubic millimetres.
 const MET_MM3: f64 = 1e-6;
 
@@ -400,14 +405,25 @@ fn label(outline: &[DVec2], holes: &[Vec<DVec2>], options: &SplitOptions, split:
     }
 }
 
-/// Raises a body by `up` and checks it.
+/// Raises a body by `up` and checks it. It is rounded as it would be at [`FAR`], so that it can be moved about there exactly: a
+/// sliver that is sound near the origin may turn over where f32 is coarser.
 fn standing_on_zero(body: &Boolean, up: f64, name: &str) -> Result<Solid, CarveError> {
-    let failed = |source| CarveError::Boolean {
-        place: name.into(),
-        source,
-    };
     let body = body.without_crumbs(CRUMB_MM3).0;
-    sound(&body.moved(DVec3::new(0.0, 0.0, up)).map_err(failed)?, name)
+    let at = |by: DVec3| {
+        let put = body.moved(by + up * DVec3::Z);
+        put.map_err(|source| CarveError::Boolean {
+            place: name.into(),
+            source,
+        })
+    };
+    for k in 0..NUDGES {
+        let far = sound(&at(FAR + f64::from(k) * NUDGE)?, name);
+        let back = far.map(|s| Solid::new(moved(s.mesh(), -FAR)));
+        if let Ok(Ok(solid)) = back {
+            return Ok(solid);
+        }
+    }
+    sound(&at(DVec3::ZERO)?, name)
 }
 
 fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
