@@ -126,16 +126,25 @@ fn three_mf(scene: &Scene, split: &Split, placed: &[Solid]) -> Vec<u8> {
     write_3mf(&parts, &meta, None)
 }
 
-/// The pieces side by side in rows, about the origin; or the name of one that is not sound there.
+/// The pieces side by side in rows, about the origin; or the name of one that is not sound there. A piece with a film so thin that
+/// it is sound near the origin only, where f32 is finest, is put there.
 fn spread(split: &Split) -> Result<Vec<Solid>, String> {
     let places = places(split);
-    let put = |(piece, at): (&Piece, &DVec3)| {
-        let mesh = piece.solid.mesh();
-        let mesh = mesh.transformed(DMat4::from_translation(*at));
-        let solid = Solid::new(mesh.clone()).or_else(|_| Solid::new(mend(&mesh)));
-        solid.map_err(|_| piece.name.clone())
+    let name = |k: usize| split.pieces[k].name.clone();
+    let put = |shift: DVec3| -> Result<Vec<Solid>, usize> {
+        let pieces = split.pieces.par_iter().zip(&places).enumerate();
+        let placed = pieces.map(|(k, (piece, at))| placed(piece, *at - shift).ok_or(k));
+        // The first failure by number, whatever thread finds it.
+        placed.collect::<Vec<_>>().into_iter().collect()
     };
-    split.pieces.par_iter().zip(&places).map(put).collect()
+    put(DVec3::ZERO).or_else(|k| put(places[k]).map_err(name))
+}
+
+fn placed(piece: &Piece, at: DVec3) -> Option<Solid> {
+    let mesh = piece.solid.mesh();
+    let mesh = mesh.transformed(DMat4::from_translation(at));
+    let mended = || Solid::new(mend(&mesh));
+    Solid::new(mesh.clone()).or_else(|_| mended()).ok()
 }
 
 fn places(split: &Split) -> Vec<DVec3> {
