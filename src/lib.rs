@@ -21,6 +21,7 @@
 //! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
+//! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest and views | [`render::view_picture`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //!
 //! # Symbols
@@ -71,6 +72,8 @@ pub mod steps;
 pub mod relief;
 
 pub mod carve;
+
+pub mod split;
 
 pub mod formats;
 

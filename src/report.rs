@@ -6,6 +6,7 @@
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::Disturbance;
 use crate::certify::coverage::Gap;
+use crate::certify::printability::PrintCheck;
 use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
 use crate::diag::Diagnostic;
@@ -31,6 +32,9 @@ pub struct Report {
     /// What eyes elsewhere recognise, one for each view.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub camouflage: Vec<Camouflage>,
+    /// Whether it can be printed; empty if nothing was built.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub print: Vec<PrintCheck>,
     pub warnings: Vec<String>,
     /// Only on request: it differs from run to run.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -80,6 +80,26 @@ impl Boolean {
         Self::checked(self.0.difference(&other.0))
     }
 
+    /// What both have in common.
+    pub fn common(&self, other: &Self) -> Result<Self, BooleanError> {
+        Self::checked(self.0.intersection(&other.0))
+    }
+
+    /// A box with sides along the axes.
+    pub fn cuboid(lo: DVec3, hi: DVec3) -> Result<Self, BooleanError> {
+        let ring = vec![[lo.x, lo.y], [hi.x, lo.y], [hi.x, hi.y], [lo.x, hi.y]];
+        Self::upright(&[ring], lo.z, hi.z)
+    }
+
+    /// A prism over rings as in [`Self::prism`], from `bottom` to `top`.
+    pub fn upright(rings: &[Vec<[f64; 2]>], bottom: f64, top: f64) -> Result<Self, BooleanError> {
+        Self::prism(rings, |p, z| p.extend(if z < 0.5 { bottom } else { top }))
+    }
+
+    pub fn moved(&self, by: DVec3) -> Result<Self, BooleanError> {
+        Self::checked(self.0.translate(Vec3::new(by.x, by.y, by.z)))
+    }
+
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

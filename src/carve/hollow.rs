@@ -21,7 +21,7 @@ const CLEAR_MM: f64 = 1.0;
 const PART_MM: f64 = 0.003;
 
 /// Closed rings in the image, millimetres at the support; outer ones counter-clockwise, holes clockwise.
-type Rings = Vec<Vec<[f64; 2]>>;
+pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 
 /// The solid to take out of `support` in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
 pub fn hollow(
@@ -97,6 +97,14 @@ fn simple(rings: Rings) -> Rings {
     flat(rings.simplify_shape(FillRule::NonZero))
 }
 
-fn offset(rings: &Rings, by: f64) -> Rings {
+/// Rings moved outwards by `by` millimetres (inwards if negative), corners bevelled.
+pub(crate) fn offset(rings: &Rings, by: f64) -> Rings {
     flat(rings.outline(&OutlineStyle::new(by).line_join(LineJoin::Bevel)))
+}
+
+/// Rings moved outwards by `by` millimetres everywhere, sharp corners kept.
+pub(crate) fn widened(rings: &Rings, by: f64) -> Rings {
+    /// Corners sharper than this are cut off: their tips would be very far out.
+    const SHARPEST: f64 = 0.1 * std::f64::consts::PI;
+    flat(rings.outline(&OutlineStyle::new(by).line_join(LineJoin::Miter(SHARPEST))))
 }

@@ -7,9 +7,9 @@
 //! is a hair narrower than the relief where the support goes on beside it (so the relief's edge is bedded in the support) but
 //! wider where the support ends or is hidden (so no fin of it is left standing there).
 
-mod boolean;
+pub(crate) mod boolean;
 mod brace;
-mod hollow;
+pub(crate) mod hollow;
 
 use crate::groups::Groups;
 use crate::mesh::{Defect, Solid, mend, without_cavities};
@@ -70,7 +70,7 @@ const UNIONS: usize = 16;
 /// Supports nearer than this to a defect may have caused it, millimetres.
 const SUSPECT_MM: f64 = 0.5;
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
-const CRUMB_MM3: f64 = 0.005;
+pub(crate) const CRUMB_MM3: f64 = 0.005;
 
 /// What one view adds to the forest.
 pub struct ViewRelief<'a> {
@@ -91,6 +91,8 @@ pub struct Forest {
     pub reliefs: Vec<Option<Solid>>,
     /// Cells of each view's map that had to be given up, rising.
     pub given_up: Vec<Vec<u32>>,
+    /// Every support with its reliefs, in the order of the supports.
+    pub standing: Vec<Solid>,
     /// What had to be changed on the way.
     pub repairs: Repairs,
 }
@@ -206,6 +208,7 @@ fn unite(carved: &[Carved], views: &[ViewRelief]) -> Result<Forest, CarveError> 
         bare,
         reliefs: reliefs?,
         given_up,
+        standing: carved.iter().map(|c| c.whole.clone()).collect(),
         repairs,
     })
 }
@@ -230,7 +233,7 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
 
 /// The result of booleans as a checked solid, mended: with slivers simplified away, which is fast but may cross long faces, as
 /// it is, or more simplified.
-fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
+pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
     for tolerance in [1e-4, 0.0, 5e-4] {
         match Solid::new(without_cavities(mend(&solid.simplified(tolerance)))) {

@@ -30,13 +30,18 @@ pub fn run(cli: &Cli) -> u8 {
             scene,
             output,
             force,
+            split,
         } => {
+            let mut scene = scene.clone();
+            if *split {
+                scene.sets.push("output.split=true".into());
+            }
             let order = Order {
                 goal: Goal::All,
                 output: output.as_deref(),
                 force: *force,
             };
-            make(&messages, &cli.global, scene, &order)
+            make(&messages, &cli.global, &scene, &order)
         }
         Command::View { scene, output } => {
             let order = Order::of(Goal::Plan, output.as_deref());
@@ -267,6 +272,11 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
     let Some(loaded) = load(messages, args) else {
         return WRONG_INPUT;
     };
+    if order.goal == Goal::All && loaded.scene.output.split && matches!(target, Target::File(_)) {
+        let problem = Diagnostic::error("`--split` writes many files, and `-o` names only one")
+            .help("give a directory: `-o out/pieces`");
+        return fail(messages, &[problem], None, WRONG_USAGE);
+    }
     let (build, reporter) = match compile(messages, global, args, &loaded, order.goal) {
         Ok(done) => done,
         Err(code) => return code,

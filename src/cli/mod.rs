@@ -99,6 +99,9 @@ pub enum Command {
         /// Write everything even if something of it does not hold (exit code 3 all the same)
         #[arg(long)]
         force: bool,
+        /// Also write the forest in pieces: plates that fit the bed, with pins and numbered sockets, each pillar with a peg, and layout.svg at 1:1
+        #[arg(long)]
+        split: bool,
     },
     /// Draw only the plan: the forest from above with what every eye sees
     View {
@@ -134,7 +137,7 @@ pub enum Command {
     },
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]

@@ -2,16 +2,19 @@
 
 use super::Built;
 use super::elsewhere::{camouflages, confirmed_tolerance};
+use super::print::print_checks;
 use super::sight::Sight;
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::{Finished, sighted};
 use crate::certify::layer::{bound_violation_mm, order_inversions};
+use crate::certify::printability::PrintCheck;
 use crate::contest::{Claim, Contest, contested, settle};
 use crate::diag::Diagnostic;
 use crate::mimic::Optimality;
 use crate::report::{CertificateReport, ModelShare};
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Contests of the views, and what is left in conflict after settling them.
@@ -55,12 +58,13 @@ pub fn settled(
 pub struct Certificates {
     pub views: Vec<CertificateReport>,
     pub camouflage: Vec<Camouflage>,
+    pub print: Vec<PrintCheck>,
     /// What of the models does not reach its viewer, in words.
     pub unseen: Vec<Diagnostic>,
 }
 
-/// The certificates of a finished forest.
-pub fn certificates(built: &Built) -> Certificates {
+/// The certificates of a finished forest, of which `pieces` go on the bed one by one, if it is to come in pieces.
+pub fn certificates(built: &Built, pieces: &[(String, DVec3)]) -> Certificates {
     let names = built.scene.views.iter().map(|v| v.name.as_str()).collect();
     let finished = Finished::new(&built.forest, &built.bvh, built.field, names);
     let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())
@@ -70,6 +74,7 @@ pub fn certificates(built: &Built) -> Certificates {
     Certificates {
         views,
         camouflage: camouflages(built),
+        print: print_checks(built, pieces),
         unseen: unseen.concat(),
     }
 }

@@ -13,7 +13,7 @@ use crate::support::SupportKind;
 use crate::view::View;
 
 /// Grey of base and bare pillars in coloured files.
-const BARE_COLOUR: [u8; 3] = [198, 194, 186];
+pub const BARE_COLOUR: [u8; 3] = [198, 194, 186];
 /// Side of the 3MF's thumbnail, pixels.
 const THUMBNAIL_PX: u32 = 512;
 

@@ -7,7 +7,9 @@ mod certificates;
 mod elsewhere;
 mod files;
 mod pictures;
+mod print;
 mod sight;
+mod split;
 mod summary;
 mod verdict;
 
@@ -22,6 +24,7 @@ use files::{counts, file, plan_files, printable_files, summary};
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
 use sight::{Shape, Sight, see};
+use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 use verdict::failures;
 
@@ -131,10 +134,25 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
             ..Build::default()
         });
     }
+    let mut warnings = warnings;
+    let split = if scene.output.split {
+        progress("pieces", 0.75);
+        let split = pieces(scene, &built.forest).map_err(|e| vec![e])?;
+        warnings.extend(remarks(&split));
+        Some(split)
+    } else {
+        None
+    };
     progress("certificates", 0.8);
-    let certificates = certificates(&built);
+    let bodies = split.as_ref().map_or_else(Vec::new, bodies);
+    let certificates = certificates(&built, &bodies);
     progress("files", 0.9);
     let mut files = printable_files(scene, &built.forest);
+    if let Some(split) = &split {
+        let (pieces, warning) = split_files(scene, split);
+        files.extend(pieces);
+        warnings.extend(warning);
+    }
     if scene.output.plan {
         files.extend(plan_files(scene, &rooms(&certificates.views)));
     }

@@ -71,6 +71,7 @@ pub fn report(
         views: views.collect(),
         solid: Some(SolidReport::new(&forest.whole, checks)),
         camouflage: certificates.camouflage,
+        print: certificates.print,
         ..Report::default()
     };
     (report, certificates.unseen)

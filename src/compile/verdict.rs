@@ -1,5 +1,6 @@
 //! The verdict: what of all that a build promises does not hold.
 
+use crate::certify::printability::PrintCheck;
 use crate::diag::Diagnostic;
 use crate::mimic::Energy;
 use crate::report::{CertificateReport, Report};
@@ -31,7 +32,27 @@ pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<
             .help("a pillar that stands outside the base, or no base at all, leaves pieces loose"),
         );
     }
+    failures.extend(report.print.iter().filter(|c| !c.ok).map(print_failure));
     failures
+}
+
+fn print_failure(check: &PrintCheck) -> Diagnostic {
+    let PrintCheck {
+        check: name,
+        place: [x, y, z],
+        value_mm,
+        limit_mm,
+        ..
+    } = check;
+    let text = format!(
+        "print check `{name}`: {value_mm:.2} mm at ({x:.1}, {y:.1}, {z:.1}) mm, and the limit is {limit_mm:.2} mm"
+    );
+    let failure = Diagnostic::error(text);
+    if check.note.is_empty() {
+        failure
+    } else {
+        failure.help(check.note.clone())
+    }
 }
 
 fn of_view(name: &str, found: &CertificateReport, ordered: bool, failures: &mut Vec<Diagnostic>) {

@@ -7,6 +7,7 @@
 pub mod curves;
 pub mod drawing;
 mod footer;
+mod layout;
 pub mod lettering;
 mod map;
 mod page;
@@ -14,6 +15,7 @@ pub mod raster;
 mod sight;
 mod svg;
 
+pub use layout::layout;
 pub use sight::{Run, Sight};
 
 use crate::diagram::drawing::Drawing;

@@ -3,10 +3,14 @@
 //! Millimetres, z up, f64 throughout. Nothing here knows meshes, scenes or files.
 
 mod image_plane;
+mod inscribed;
 mod planar;
 
 pub use image_plane::ImagePlane;
-pub use planar::{barycentric, orient, polygon_area, segment_crossing};
+pub use inscribed::{Circle, inscribed};
+pub use planar::{
+    barycentric, contains, gap, narrowest, orient, polygon_area, segment_crossing, to_segment,
+};
 
 use glam::DVec3;
 

@@ -40,3 +40,54 @@ pub fn segment_crossing(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<f64> {
     let u = ac.perp_dot(ab) / det;
     ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)).then_some(t)
 }
+
+/// Whether a point lies in a simple polygon (its edge counts as in, up to rounding).
+pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
+    let n = polygon.len();
+    let crossings = (0..n).filter(|&i| {
+        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+        (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
+    });
+    crossings.count() % 2 == 1
+}
+
+/// Distance of `p` from the segment `ab`.
+pub fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let ab = b - a;
+    let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
+    p.distance(a + t * ab)
+}
+
+/// Smallest width of a polygon over the directions square to its sides.
+pub fn narrowest(polygon: &[DVec2]) -> f64 {
+    let n = polygon.len();
+    (0..n)
+        .map(|i| {
+            let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+            let across = (b - a).perp().normalize_or_zero();
+            polygon
+                .iter()
+                .map(|p| (*p - a).dot(across))
+                .fold(0.0, f64::max)
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Distance between two outlines: 0 if they touch or one holds the other.
+pub fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    if contains(a, b[0]) || contains(b, a[0]) {
+        return 0.0;
+    }
+    let mut best = f64::INFINITY;
+    for i in 0..a.len() {
+        let (p, q) = (a[i], a[(i + 1) % a.len()]);
+        for j in 0..b.len() {
+            let (r, s) = (b[j], b[(j + 1) % b.len()]);
+            if segment_crossing(p, q, r, s).is_some() {
+                return 0.0;
+            }
+            best = best.min(to_segment(p, r, s)).min(to_segment(r, p, q));
+        }
+    }
+    best
+}

@@ -274,7 +274,7 @@ fn plate(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, printer
     if !fits {
         reader.problems.push(
             warning_at(&span, format!("the forest is {} x {} mm, larger than the printer's bed of {x} x {y} mm", short(size.x), short(size.y)))
-                .help("give the size of your printer: `printer: (bed: (300, 300, 300))`, or print the forest in tiles"),
+                .help("give the size of your printer: `printer: (bed: (300, 300, 300))`, or cut it into plates with `build --split`"),
         );
     }
     if height > z {

@@ -74,6 +74,7 @@ pub const CONTESTED: Contested = Contested::First;
 pub const PRINTER: Printer = Printer {
     nozzle: 0.4,
     bed: [256.0, 256.0, 256.0],
+    clearance: 0.15,
 };
 
 pub const OUTPUT: Output = Output {
@@ -84,6 +85,7 @@ pub const OUTPUT: Output = Output {
     views: true,
     lights: true,
     camouflage: true,
+    split: false,
     picture_size: 640,
     plan_width: 2000,
 };

@@ -54,6 +54,8 @@ pub struct Printer {
     pub nozzle: f64,
     /// Width, depth, height of the build volume.
     pub bed: [f64; 3],
+    /// Room between what is to be put together.
+    pub clearance: f64,
 }
 
 /// Which files a build writes, and how large its pictures are.
@@ -68,6 +70,8 @@ pub struct Output {
     pub lights: bool,
     /// Likeness from rings of eyes: figures and a plot.
     pub camouflage: bool,
+    /// The forest in pieces too.
+    pub split: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

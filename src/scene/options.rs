@@ -135,6 +135,9 @@ pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
     let nozzle = reader
         .length_from(&raw.nozzle, "nozzle", 0.05)
         .map_or(defaults::PRINTER.nozzle, |(v, _)| v);
+    let clearance = reader
+        .length_from(&raw.clearance, "clearance", 0.0)
+        .map_or(defaults::PRINTER.clearance, |(v, _)| v);
     let bed = reader.point_field(&raw.bed, "bed");
     if let Some((_, span)) = bed.as_ref().filter(|(b, _)| b.iter().any(|v| *v < 10.0)) {
         reader.error(
@@ -145,6 +148,7 @@ pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
     Printer {
         nozzle,
         bed: bed.map_or(defaults::PRINTER.bed, |(b, _)| b),
+        clearance,
     }
 }
 
@@ -164,6 +168,7 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         views: flag(reader, &raw.views, under.views),
         lights: flag(reader, &raw.lights, under.lights),
         camouflage: flag(reader, &raw.camouflage, under.camouflage),
+        split: flag(reader, &raw.split, under.split),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }

@@ -233,9 +233,10 @@ fn other_sections() -> Vec<Section> {
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
         ]),
-        section("printer", "Used by warnings only.", vec![
+        section("printer", "Used by warnings, print checks and `build --split`.", vec![
             field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
             field("bed", "(x, y, z)", format!("{:?} mm", printer.bed), "largest print"),
+            field("clearance", "length", format!("{} mm", printer.clearance), "room between peg and socket, pin and hole, plate and plate"),
         ]),
         section("output", "What `build` writes besides report.json.", vec![
             field("forest_3mf", "true | false", output.forest_3mf, "for slicers: named and coloured objects"),
@@ -245,6 +246,7 @@ fn other_sections() -> Vec<Section> {
             field("views", "true | false", output.views, "views/<view>.png"),
             field("lights", "true | false", output.lights, "each view under suns and an overcast sky: views/<view>-lights.png, and figures in report.json"),
             field("camouflage", "true | false", output.camouflage, "how like its model the forest is from elsewhere: camouflage.png and .svg, and figures in report.json"),
+            field("split", "true | false", output.split, "plates, pillars one by one and layout.svg, as `build --split`"),
             field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
             field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
         ]),

@@ -1,5 +1,6 @@
 //! Outlines in the ground plane and the upright prisms over them.
 
+pub use crate::geom::{contains, gap, narrowest, to_segment};
 use crate::geom::{orient, polygon_area, segment_crossing};
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
@@ -121,57 +122,6 @@ fn is_flat(polygon: &[DVec2], left: &[u32], i: usize) -> bool {
 
 fn inside(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
     orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
-}
-
-/// Whether a point lies in a simple polygon (its edge counts as in, up to rounding).
-pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
-    let n = polygon.len();
-    let crossings = (0..n).filter(|&i| {
-        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-        (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
-    });
-    crossings.count() % 2 == 1
-}
-
-/// Distance between two outlines: 0 if they touch or one holds the other.
-pub fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
-    if contains(a, b[0]) || contains(b, a[0]) {
-        return 0.0;
-    }
-    let mut best = f64::INFINITY;
-    for i in 0..a.len() {
-        let (p, q) = (a[i], a[(i + 1) % a.len()]);
-        for j in 0..b.len() {
-            let (r, s) = (b[j], b[(j + 1) % b.len()]);
-            if segment_crossing(p, q, r, s).is_some() {
-                return 0.0;
-            }
-            best = best.min(to_segment(p, r, s)).min(to_segment(r, p, q));
-        }
-    }
-    best
-}
-
-/// Distance of `p` from the segment `ab`.
-pub fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let ab = b - a;
-    let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
-    p.distance(a + t * ab)
-}
-
-/// Smallest width of a polygon over the directions square to its sides.
-pub fn narrowest(polygon: &[DVec2]) -> f64 {
-    let n = polygon.len();
-    (0..n)
-        .map(|i| {
-            let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-            let across = (b - a).perp().normalize_or_zero();
-            polygon
-                .iter()
-                .map(|p| (*p - a).dot(across))
-                .fold(0.0, f64::max)
-        })
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Distance of a point from a polygon, 0 inside.

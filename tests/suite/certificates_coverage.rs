@@ -469,8 +469,7 @@ struct Built<'a> {
 impl<'a> Built<'a> {
     fn new(field: &'a SupportField<'a>, sights: Vec<Sight>) -> Self {
         let of_sight = |s: &Sight| {
-            let depths =
-                depths(defaults::ENERGY, &s.target, &s.map, &s.groups).expect("depths");
+            let depths = depths(defaults::ENERGY, &s.target, &s.map, &s.groups).expect("depths");
             relief(&s.map, &s.target, field, &s.groups, &depths)
         };
         let reliefs: Vec<Relief> = sights.iter().map(of_sight).collect();

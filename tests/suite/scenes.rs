@@ -135,6 +135,21 @@ fn every_scene_becomes_one_closed_part_that_shows_its_models() {
 }
 
 #[test]
+fn every_scene_passes_the_print_checks() {
+    for name in buildable() {
+        let report = &built(&name).report;
+        let checks = report["print"].as_array().unwrap();
+        assert!(checks.len() >= 8, "{name}: {checks:?}");
+        for check in checks {
+            assert_eq!(check["ok"], true, "{name}: {check}");
+            for figure in ["value_mm", "wanted_mm", "limit_mm"] {
+                assert!(check[figure].as_f64().unwrap() >= 0.0, "{name}: {check}");
+            }
+        }
+    }
+}
+
+#[test]
 fn every_scene_gives_every_file_and_no_warning() {
     for name in buildable() {
         let Built { scene, build, .. } = built(&name);

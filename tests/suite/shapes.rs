@@ -1,6 +1,9 @@
 //! Small bodies and forests for tests of several subjects.
 
 use glam::{DMat4, DVec2, DVec3};
+use manifold_rust::linalg::Vec3;
+use manifold_rust::manifold::Manifold;
+use manifold_rust::types::{Error, MeshGL64};
 use pillarforest::geom::ImagePlane;
 use pillarforest::mesh::TriMesh;
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
@@ -242,4 +245,34 @@ pub fn wavy(radius: f64, share: f64) -> TriMesh {
         *v = MIDDLE + d * (1.0 + share * wave);
     }
     mesh
+}
+
+/// What the boolean library makes of boxes given by two corners: their union.
+pub fn boxes(corners: &[(DVec3, DVec3)]) -> TriMesh {
+    let cube = |(lo, hi): &(DVec3, DVec3)| {
+        let vec = |v: DVec3| Vec3::new(v.x, v.y, v.z);
+        Manifold::cube(vec(*hi - *lo), false).translate(vec(*lo))
+    };
+    let all = corners.iter().map(cube).reduce(|a, b| a.union(&b)).unwrap();
+    let mesh = all.get_mesh_gl64(-1);
+    TriMesh {
+        vertices: (0..mesh.num_vert())
+            .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
+            .collect(),
+        faces: (0..mesh.num_tri())
+            .map(|t| mesh.get_tri_verts(t).map(|v| v as u32))
+            .collect(),
+    }
+}
+
+/// A mesh for the boolean library.
+pub fn manifold(mesh: &TriMesh) -> Manifold {
+    let solid = Manifold::from_mesh_gl64(&MeshGL64 {
+        num_prop: 3,
+        vert_properties: mesh.vertices.iter().flat_map(|v| v.to_array()).collect(),
+        tri_verts: mesh.faces.iter().flatten().map(|v| u64::from(*v)).collect(),
+        ..MeshGL64::default()
+    });
+    assert_eq!(solid.status(), Error::NoError);
+    solid
 }

@@ -1,1 +1,0 @@
-//! Whether the forest can be printed: walls, gaps, overhangs, slenderness, bed, loose parts, core.

@@ -1,0 +1,147 @@
+//! How far faces hang out over nothing.
+//!
+//! A face hangs if it looks down and is flatter than [`STEEP_DEG`] degrees from the horizontal; the bottom of the print, which lies on
+//! the bed, does not. Hanging faces that share an edge are one region. A region is held where it borders on a face that goes on
+//! *downwards* from their edge (a wall below, or a steeper slope); its reach is the largest horizontal distance of one of its
+//! points from the nearest such edge. A bridge is held at both ends and reaches half its span. A region that is held nowhere starts
+//! in mid-air: its reach is its own extent.
+
+use super::{PrintCheck, PrintLimits, tidy};
+use crate::geom::to_segment;
+use crate::mesh::{DisjointSets, TriMesh, face_neighbours};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Faces steeper than this are laid down line on line.
+pub const STEEP_DEG: f64 = 45.0;
+/// Faces this near to the lowest point lie on the bed, millimetres.
+const BED_MM: f64 = 0.01;
+/// A printed line may stick out freely by this many nozzles.
+const FREE_NOZZLES: f64 = 3.0;
+/// Farther than this a ledge is not held by one tower of a slicer's supports, which are 10 mm wide or less, millimetres. A choice: the
+/// layers of reliefs on pillars (7 mm by default) stay below it, a table top does not.
+const HELD_MM: f64 = 10.0;
+
+/// Points of hanging faces are at most this far apart along edges, millimetres, on faces of up to [`FINEST`] such steps.
+const GRID_MM: f64 = 1.0;
+const FINEST: u32 = 100;
+
+/// The region that reaches farthest.
+pub fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
+    let regions = regions(mesh);
+    let reaches: Vec<(f64, DVec3)> = regions.par_iter().map(Region::reach).collect();
+    let free = FREE_NOZZLES * limits.nozzle;
+    let over = reaches.iter().filter(|r| r.0 > free).count();
+    let (reach, place) = reaches
+        .into_iter()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or_default();
+    let note = if over == 0 {
+        "nothing needs supports".to_owned()
+    } else {
+        format!(
+            "{over} regions flatter than {STEEP_DEG} degrees reach farther than wanted: print with the slicer's supports"
+        )
+    };
+    PrintCheck {
+        check: "overhang",
+        place: tidy(place),
+        value_mm: reach,
+        wanted_mm: free,
+        limit_mm: HELD_MM,
+        ok: reach <= HELD_MM,
+        note,
+    }
+}
+
+/// Hanging faces that hang together.
+#[derive(Default)]
+struct Region {
+    /// Corners, and points between them.
+    points: Vec<DVec3>,
+    /// Edges that something below holds.
+    held: Vec<[DVec2; 2]>,
+}
+
+impl Region {
+    /// Millimetres, and where.
+    fn reach(&self) -> (f64, DVec3) {
+        let (lo, hi) = self
+            .points
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
+                (lo.min(*p), hi.max(*p))
+            });
+        let of = |p: &DVec3| {
+            let distance = |e: &[DVec2; 2]| match e[0] == e[1] {
+                true => e[0].distance(p.truncate()),
+                false => to_segment(p.truncate(), e[0], e[1]),
+            };
+            self.held
+                .iter()
+                .map(distance)
+                .fold((hi - lo).truncate().length(), f64::min)
+        };
+        let reaches = self.points.iter().map(|p| (of(p), *p));
+        reaches
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or_default()
+    }
+}
+
+fn regions(mesh: &TriMesh) -> Vec<Region> {
+    let floor = mesh.bounds().map_or(0.0, |(lo, _)| lo.z) + BED_MM;
+    let flat = -STEEP_DEG.to_radians().cos();
+    let hangs: Vec<bool> = (0..mesh.faces.len())
+        .into_par_iter()
+        .map(|f| mesh.normal(f).z < flat && mesh.corners(f).iter().any(|c| c.z > floor))
+        .collect();
+    let neighbours = face_neighbours(mesh);
+    let mut sets = DisjointSets::new(mesh.faces.len());
+    let hanging = || (0..mesh.faces.len()).filter(|f| hangs[*f]);
+    for f in hanging() {
+        for n in neighbours[f].into_iter().flatten() {
+            if hangs[n as usize] {
+                sets.join(f as u32, n);
+            }
+        }
+    }
+    let (count, number) = sets.numbers();
+    let mut slot = vec![usize::MAX; count];
+    let mut regions: Vec<Region> = Vec::new();
+    for f in hanging() {
+        let slot = &mut slot[number[f] as usize];
+        if *slot == usize::MAX {
+            *slot = regions.len();
+            regions.push(Region::default());
+        }
+        let region = &mut regions[*slot];
+        let corners = mesh.corners(f);
+        region.points.extend(points(corners));
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            let other = neighbours[f][k].filter(|n| !hangs[*n as usize]);
+            if other.is_some_and(|n| goes_down(mesh, n as usize, (a + b) / 2.0)) {
+                region.held.push([a.truncate(), b.truncate()]);
+            }
+        }
+    }
+    regions
+}
+
+/// A grid over a face, its corners included: the middle of a bridge has no corner.
+fn points([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let n = ((longest / GRID_MM).ceil() as u32).clamp(1, FINEST);
+    (0..=n).flat_map(move |i| {
+        (0..=n - i).map(move |j| {
+            a + f64::from(i) / f64::from(n) * (b - a) + f64::from(j) / f64::from(n) * (c - a)
+        })
+    })
+}
+
+/// Whether a face lies below one of its edges.
+fn goes_down(mesh: &TriMesh, face: usize, edge: DVec3) -> bool {
+    let corners = mesh.corners(face);
+    corners.iter().sum::<DVec3>().z / 3.0 < edge.z
+}
