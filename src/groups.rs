@@ -10,6 +10,7 @@ use crate::geom::barycentric;
 use crate::mesh::face_components;
 use crate::support::{Datum, Slab};
 use crate::viewmap::{SupportField, Target, ViewMap};
+use glam::DVec2;
 
 /// Points nearer to a side of a face than this, in the image, lie on it: 0.1 micrometre at 250 mm, above all rounding and
 /// snapping, below the thinnest cell by twenty times.
@@ -84,7 +85,13 @@ pub struct Groups {
 }
 
 /// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
-pub fn anchor(target: &Target, face: usize, q: glam::DVec2) -> (Anchor, f64) {
+pub fn anchor(target: &Target, face: usize, q: DVec2) -> (Anchor, f64) {
+    let (anchor, depth, _) = anchored(target, face, q);
+    (anchor, depth)
+}
+
+/// The same, with where in the image the point lies once it is drawn in.
+pub fn anchored(target: &Target, face: usize, q: DVec2) -> (Anchor, f64, DVec2) {
     let [a, b, c] = target.image_of(face);
     let vertices = target.mesh.faces[face];
     let area = (b - a).perp_dot(c - a).abs();
@@ -109,6 +116,7 @@ pub fn anchor(target: &Target, face: usize, q: glam::DVec2) -> (Anchor, f64) {
             weights: inverse.map(|w| w / total),
         },
         1.0 / total,
+        (beta[0] * a + beta[1] * b + beta[2] * c) / sum,
     )
 }
 
@@ -282,8 +290,9 @@ fn bounds(
         };
         for p in cell.corners {
             let q = map.points[p as usize];
-            let (anchor, depth) = anchor(target, face as usize, q);
-            let (near, far) = layer_in(map, field, &slab, c, q);
+            // Where the point lies on its face, the layer is that of its vertices.
+            let (anchor, depth, on_face) = anchored(target, face as usize, q);
+            let (near, far) = layer_in(map, field, &slab, c, on_face);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]
@@ -346,7 +355,7 @@ pub fn layer_at(
     field: &SupportField,
     slab: &Slab,
     support: u32,
-    q: glam::DVec2,
+    q: DVec2,
 ) -> (f64, f64) {
     let direction = map.plane.direction(q);
     let on_axis = slab.plane(direction, 0.0);
@@ -367,7 +376,7 @@ pub fn layer_in(
     field: &SupportField,
     slab: &Slab,
     cell: usize,
-    q: glam::DVec2,
+    q: DVec2,
 ) -> (f64, f64) {
     let direction = map.plane.direction(q);
     let facet = map.cells[cell].facet.filter(|_| slab.follows_surface());

@@ -5,12 +5,10 @@
 //! sheets meet. Neither the program's rows nor its solution are used.
 
 use crate::groups::{Groups, anchor, layer_in};
+use crate::mimic::TOGETHER_MM;
 use crate::relief::Relief;
 use crate::viewmap::{SupportField, Target, ViewMap};
 
-/// Sheets of the model nearer than this along a side hang together there, millimetres: merging thin cells moves them by as
-/// much.
-const TOGETHER_MM: f64 = 0.02;
 /// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
 const EQUAL_MM: f64 = 1e-6;
 

@@ -20,7 +20,7 @@ mod solve;
 
 pub use certificate::{Optimality, optimality};
 pub use conditions::Condition;
-pub use ordering::{Order, Orders, orders};
+pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
 pub use solve::{Solution, SolveError, Solved, solve};
 

@@ -19,6 +19,8 @@ use glam::DVec2;
 
 /// Pairs nearer than this share of the model's depth touch rather than overlap: an order between them only adds noise.
 const APART: f64 = 1e-4;
+/// Sheets nearer than this along a side of cells hang together there, millimetres: merging thin cells moves them by as much.
+pub const TOGETHER_MM: f64 = 0.02;
 /// A vertex this far inside the image of a face (barycentric) lies in it rather than on its side, where edges cross.
 const INSIDE: f64 = 1e-9;
 
@@ -90,7 +92,9 @@ fn at_sides(target: &Target, map: &ViewMap, groups: &Groups) -> Vec<Order> {
             for end in [k, (k + 1) % 3] {
                 let q = map.points[cell.corners[end] as usize];
                 let at = [face, other].map(|f| anchor(target, f as usize, q));
-                orders.extend(order(at, [g, h]).map(|o| o.1));
+                if (at[0].1 - at[1].1).abs() > TOGETHER_MM {
+                    orders.extend(order(at, [g, h]).map(|o| o.1));
+                }
             }
         }
     }

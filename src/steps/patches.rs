@@ -2,15 +2,12 @@
 
 use super::{StepLimits, UNSEEN_RAD};
 use crate::geom::ImagePlane;
-use crate::groups::{Anchor, Groups, anchor, layer_at, layer_in};
+use crate::groups::{Anchor, Groups, anchor, anchored, layer_at, layer_in};
 use crate::laplacian::FaceGeometry;
+use crate::mimic::TOGETHER_MM;
 use crate::viewmap::{SupportField, Target, ViewMap};
 use glam::DVec2;
 use std::ops::Range;
-
-/// Sheets whose depths in the model differ by less than this along a side hang together there, millimetres: well above what
-/// merging thin cells moves, well below any step worth printing.
-const TOGETHER_MM: f64 = 0.02;
 
 /// The part of a face that is seen on one group.
 #[derive(Clone, Debug)]
@@ -264,8 +261,8 @@ fn add_cell(
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
     for q in map.triangle(c) {
-        let (anchor, z) = anchor(target, patch.face as usize, q);
-        let (near, far) = layer_in(map, field, &slab, c, q);
+        let (anchor, z, on_face) = anchored(target, patch.face as usize, q);
+        let (near, far) = layer_in(map, field, &slab, c, on_face);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
         patch.points.push(PatchPoint {

@@ -371,7 +371,9 @@ fn rotation_scale_and_translation_of_everything_change_nothing() {
                 before.depths.solved.optimality.objective,
                 after.depths.solved.optimality.objective,
             );
-            let [in_depth, in_energy] = tolerances;
+            // Cells are merged below a size in millimetres: at another scale sheets meet at other places.
+            let merged = if scale == 1.0 { 1.0 } else { 200.0 };
+            let [in_depth, in_energy] = tolerances.map(|t| merged * t);
             assert!(change < in_depth, "{energy:?} {by}: {change:e}");
             assert!((a / b - 1.0).abs() < in_energy, "{energy:?} {by}: {a} {b}");
         }
