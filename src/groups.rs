@@ -86,12 +86,6 @@ pub struct Groups {
 
 /// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
 pub fn anchor(target: &Target, face: usize, q: DVec2) -> (Anchor, f64) {
-    let (anchor, depth, _) = anchored(target, face, q);
-    (anchor, depth)
-}
-
-/// The same, with where in the image the point lies once it is drawn in.
-pub fn anchored(target: &Target, face: usize, q: DVec2) -> (Anchor, f64, DVec2) {
     let [a, b, c] = target.image_of(face);
     let vertices = target.mesh.faces[face];
     let area = (b - a).perp_dot(c - a).abs();
@@ -116,7 +110,6 @@ pub fn anchored(target: &Target, face: usize, q: DVec2) -> (Anchor, f64, DVec2) 
             weights: inverse.map(|w| w / total),
         },
         1.0 / total,
-        (beta[0] * a + beta[1] * b + beta[2] * c) / sum,
     )
 }
 
@@ -290,9 +283,8 @@ fn bounds(
         };
         for p in cell.corners {
             let q = map.points[p as usize];
-            // Where the point lies on its face, the layer is that of its vertices.
-            let (anchor, depth, on_face) = anchored(target, face as usize, q);
-            let (near, far) = layer_in(map, field, &slab, c, on_face);
+            let (anchor, depth) = anchor(target, face as usize, q);
+            let (near, far) = layer_in(map, field, &slab, c, q);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]

@@ -9,7 +9,7 @@ mod block;
 
 pub use block::{Block, block};
 
-use crate::groups::{Groups, anchored, layer_in};
+use crate::groups::{Groups, anchor, layer_in};
 use crate::mimic::Depths;
 use crate::viewmap::{SupportField, Target, ViewMap};
 
@@ -42,13 +42,12 @@ pub fn relief(
         };
         depth[c] = Some(cell.corners.map(|p| {
             let q = map.points[p as usize];
-            let (anchor, model_depth, on_face) = anchored(target, face as usize, q);
+            let (anchor, model_depth) = anchor(target, face as usize, q);
             let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
-            let (near, far) = layer_in(map, field, &slab, c, on_face);
+            let (near, far) = layer_in(map, field, &slab, c, q);
             let kept = free.clamp(near, far.max(near));
             clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
-            // A corner off its face by the thickness of a merged cell lies as deep in its layer as the face's edge.
-            kept * layer_in(map, field, &slab, c, q).0 / near
+            kept
         }));
     }
     Relief { depth, clamp_mm }

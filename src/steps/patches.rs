@@ -2,7 +2,7 @@
 
 use super::{StepLimits, UNSEEN_RAD};
 use crate::geom::ImagePlane;
-use crate::groups::{Anchor, Groups, anchor, anchored, layer_at, layer_in};
+use crate::groups::{Anchor, Groups, anchor, layer_at, layer_in};
 use crate::laplacian::FaceGeometry;
 use crate::mimic::TOGETHER_MM;
 use crate::viewmap::{SupportField, Target, ViewMap};
@@ -261,8 +261,8 @@ fn add_cell(
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
     for q in map.triangle(c) {
-        let (anchor, z, on_face) = anchored(target, patch.face as usize, q);
-        let (near, far) = layer_in(map, field, &slab, c, on_face);
+        let (anchor, z) = anchor(target, patch.face as usize, q);
+        let (near, far) = layer_in(map, field, &slab, c, q);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
         patch.points.push(PatchPoint {

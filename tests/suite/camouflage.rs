@@ -184,7 +184,7 @@ fn a_scene_may_do_without_camouflage_but_not_without_tolerance() {
         .unwrap();
     assert_eq!(first["angle_deg"], 0.0);
     assert!((first["mean_error_deg"].as_f64().unwrap() - own).abs() < 1.0);
-    let view = &report["views"][0];
+    let view = &report["views"][0]["certificate"];
     let [unseen, one] = ["eye_tolerance_mm", "one_picture_mm"].map(|k| view[k]["side"].as_f64());
     // Five times as far but for specks, which may be longer.
     let ratio = one.unwrap() / unseen.unwrap();

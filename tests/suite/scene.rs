@@ -188,7 +188,12 @@ fn a_fitted_model_has_its_size_stands_on_its_place_and_faces_the_eye() {
         let model = &view.models[0];
         let (lo, hi) = model.mesh.bounds().expect("vertices");
         assert!((hi.z - lo.z - 50.0).abs() < 1e-9 && (lo.z - 5.0).abs() < 1e-9);
-        let nose = model.mesh.vertices[2];
+        // The vertex farthest out from the model's place.
+        let place = glam::DVec3::new(3.0, 4.0, 5.0).truncate();
+        let reach = |v: &glam::DVec3| v.truncate().distance(place);
+        let nose = *(model.mesh.vertices.iter())
+            .max_by(|a, b| reach(a).total_cmp(&reach(b)))
+            .expect("vertices");
         let to_eye = (view.eye - glam::DVec3::new(3.0, 4.0, 5.0))
             .truncate()
             .normalize();
