@@ -84,6 +84,7 @@ pub const OUTPUT: Output = Output {
     views: true,
     lights: true,
     camouflage: true,
+    report_html: true,
     picture_size: 640,
     plan_width: 2000,
 };

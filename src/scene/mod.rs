@@ -68,6 +68,8 @@ pub struct Output {
     pub lights: bool,
     /// Likeness from rings of eyes: figures and a plot.
     pub camouflage: bool,
+    /// The report as a page for people.
+    pub report_html: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

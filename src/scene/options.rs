@@ -164,6 +164,7 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         views: flag(reader, &raw.views, under.views),
         lights: flag(reader, &raw.lights, under.lights),
         camouflage: flag(reader, &raw.camouflage, under.camouflage),
+        report_html: flag(reader, &raw.report_html, under.report_html),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }

@@ -14,6 +14,7 @@ mod meshes;
 mod numerics;
 mod readme;
 mod render;
+mod report_html;
 mod scene;
 mod scenes;
 mod shapes;
