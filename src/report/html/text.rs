@@ -36,12 +36,12 @@ fn figure(exact: f64, shown: &str) -> String {
 /// With so many decimals and a unit. What would read as zero and is none is told as being below the last place.
 pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
     let least = 0.1_f64.powi(decimals as i32);
-    let number = if exact != 0.0 && exact.abs() < least / 2.0 {
+    let number = if exact > 0.0 && exact < least / 2.0 {
         format!("below {least:.decimals$}")
     } else {
-        format!("{:.decimals$}", exact + 0.0)
+        rounded(exact, decimals)
     };
-    let gap = if unit.is_empty() || unit == "°" {
+    let gap = if ["", "°", "′"].contains(&unit) {
         String::new()
     } else {
         THIN.to_string()
@@ -52,6 +52,12 @@ pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
 /// The same, or `none`.
 pub fn measure_or(exact: Option<f64>, decimals: usize, unit: &str, none: &str) -> String {
     exact.map_or_else(|| none.to_owned(), |x| measure(x, decimals, unit))
+}
+
+/// Without the sign of what rounds to zero.
+fn rounded(exact: f64, decimals: usize) -> String {
+    let nothing = exact.abs() < 0.1_f64.powi(decimals as i32) / 2.0;
+    format!("{:.decimals$}", if nothing { 0.0 } else { exact })
 }
 
 /// A share as a percentage, rounded down: only a perfect one reads as 100 %.
@@ -86,7 +92,7 @@ pub fn tiny(exact: f64) -> String {
 
 /// A place in millimetres.
 pub fn place(p: [f64; 3]) -> String {
-    let [x, y, z] = p.map(|c| measure(c, 1, ""));
+    let [x, y, z] = p.map(|c| figure(c, &rounded(c, 1)));
     format!("<span class=\"place\">({x}, {y}, {z}){THIN}mm</span>")
 }
 

@@ -52,12 +52,15 @@ fn panels(name: &str, found: &ViewReport, pictures: &ViewPictures) -> String {
             measure(e.p90, 2, "°")
         )
     });
+    let torn = found
+        .steps
+        .map_or("", |_| " Lines are steps in the surface.");
     format!(
         "<div class=\"panels\">\n<figure class=\"wipe\">\n<div class=\"pair\">\n<div class=\"target\">{}<span>model</span></div>\n\
          <div class=\"forest\">{}<span>forest</span></div>\n</div>\n\
          <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" step=\"1\" aria-label=\"How much of the model is shown before \
          the forest\">\n<figcaption>What the eye should see, and what it sees of the finished forest.</figcaption>\n</figure>\n\
-         <figure class=\"error\">\n{}\n{}<figcaption>Error of the normals{error_text}.</figcaption>\n</figure>\n</div>\n",
+         <figure class=\"error\">\n{}\n{}<figcaption>Error of the normals{error_text}.{torn}</figcaption>\n</figure>\n</div>\n",
         picture(target, &format!("{name}: the model")),
         picture(forest, &format!("{name}: the forest from its eye")),
         picture(error, &format!("{name}: error of the normals")),
