@@ -32,10 +32,10 @@ use step_lines::{Panel, step_lines};
 const MARGIN: f64 = 1.05;
 
 /// Angle in degrees at the end of the error scale; larger errors look the same.
-const SCALE_END_DEG: f64 = 45.0;
+pub const SCALE_END_DEG: f64 = 45.0;
 
 /// Colours of the error scale at equal steps from 0 to [`SCALE_END_DEG`].
-const HEAT: [[u8; 3]; 5] = [
+pub const HEAT: [[u8; 3]; 5] = [
     [0xDF, 0xEA, 0xF0],
     [0x9C, 0xC3, 0xD5],
     [0xF3, 0xC6, 0x4B],
@@ -61,9 +61,16 @@ pub struct Likeness {
     pub pixels: usize,
 }
 
-/// Draws and measures one view. `size_px` is the side of one of the three panels (16 to 2048), a panel being as in
-/// [`camera`]. `colours`, one per face of the forest, tint its panel lightly. `steps` are drawn over the errors and told in the
-/// caption: the lines where the surface was torn, if it might be.
+/// One view's pictures, PNG.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewPictures {
+    /// Target, forest and error side by side with captions.
+    pub sheet: Vec<u8>,
+    /// The same three one by one without captions, square.
+    pub panels: [Vec<u8>; 3],
+}
+
+/// [`view_pictures`] without the separate panels.
 pub fn view_picture(
     view: &View,
     forest: &TriMesh,
@@ -72,6 +79,21 @@ pub fn view_picture(
     steps: Option<(&[StepLine], StepSummary)>,
     size_px: u32,
 ) -> (Likeness, Vec<u8>) {
+    let (likeness, pictures) = view_pictures(view, forest, forest_bvh, colours, steps, size_px);
+    (likeness, pictures.sheet)
+}
+
+/// Draws and measures one view. `size_px` is the side of one of the three panels (16 to 2048), a panel being as in
+/// [`camera`]. `colours`, one per face of the forest, tint its panel lightly. `steps` are drawn over the errors and told in the
+/// caption: the lines where the surface was torn, if it might be.
+pub fn view_pictures(
+    view: &View,
+    forest: &TriMesh,
+    forest_bvh: &Bvh,
+    colours: Option<&[[u8; 3]]>,
+    steps: Option<(&[StepLine], StepSummary)>,
+    size_px: u32,
+) -> (Likeness, ViewPictures) {
     let size = size_px.clamp(16, 2048) as usize;
     let target = view.target();
     let target_bvh = Bvh::new(&target);
@@ -228,15 +250,20 @@ fn compose(
     steps: Option<(&[StepLine], StepSummary)>,
     pixels: &[[Rgb; 3]],
     size: usize,
-) -> Vec<u8> {
+) -> ViewPictures {
     let unit = size as f64 / 100.0;
     let gap = (3.0 * unit).round() as usize;
     let caption = (13.0 * unit).round() as usize;
     let (w, h) = (3 * size + 4 * gap, size + 2 * gap + caption);
     let mut pixmap = raster::blank(w as u32, h as u32);
+    let corner = |panel: usize| (gap + panel * (size + gap), gap);
     for panel in 0..3 {
-        let corner = (gap + panel * (size + gap), gap);
-        raster::put_square(&mut pixmap, corner, size, pixels.iter().map(|p| p[panel]));
+        raster::put_square(
+            &mut pixmap,
+            corner(panel),
+            size,
+            pixels.iter().map(|p| p[panel]),
+        );
     }
     let mut drawing = Drawing::new(DVec2::new(w as f64, h as f64));
     let column = |panel: usize| (gap + panel * (size + gap)) as f64;
@@ -261,7 +288,10 @@ fn compose(
         unit,
     );
     drawing.paint(&mut pixmap, 1.0);
-    raster::encode(&pixmap)
+    ViewPictures {
+        sheet: raster::encode(&pixmap),
+        panels: [0, 1, 2].map(|p| raster::encode(&raster::square(&pixmap, corner(p), size))),
+    }
 }
 
 const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);

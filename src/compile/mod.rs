@@ -6,6 +6,7 @@
 mod certificates;
 mod elsewhere;
 mod files;
+mod page;
 mod pictures;
 mod print;
 mod sight;
@@ -21,6 +22,7 @@ use crate::viewmap::SupportField;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
 use files::{counts, file, plan_files, printable_files, summary};
+use page::page;
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
 use sight::{Shape, Sight, see};
@@ -128,7 +130,7 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     let summary = summary(scene, &built.forest, &pictures);
     if goal == Goal::Pictures {
         return Ok(Build {
-            files: picture_files(scene, pictures, true),
+            files: picture_files(scene, &pictures, true),
             summary,
             warnings,
             ..Build::default()
@@ -161,7 +163,8 @@ pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<D
     let failures = failures(scene, &report, unseen);
     report.judge(&failures, &warnings);
     files.push(file("report.json", report.json().into_bytes()));
-    files.extend(picture_files(scene, pictures, scene.output.views));
+    files.extend(picture_files(scene, &pictures, scene.output.views));
+    files.extend(page(scene, &report, &pictures, &files));
     Ok(Build {
         files,
         summary,

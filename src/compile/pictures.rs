@@ -3,14 +3,14 @@
 use super::files::file;
 use super::sight::Shape;
 use super::{Built, OutputFile};
-use crate::render::{LightLikeness, Likeness, light_pictures, view_picture};
+use crate::render::{LightLikeness, Likeness, ViewPictures, light_pictures, view_pictures};
 use crate::scene::Scene;
 use crate::view::View;
 
 /// One view's pictures (PNG) and figures.
 pub struct Pictures {
     pub likeness: Likeness,
-    pub view: Vec<u8>,
+    pub view: ViewPictures,
     /// In real light, if the scene wants it.
     pub lights: Option<(Vec<LightLikeness>, Vec<u8>)>,
 }
@@ -20,7 +20,7 @@ pub fn pictures(built: &Built) -> Vec<Pictures> {
     let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
     let of_view = |(v, shape): (&View, &Shape)| {
         let steps = shape.steps.as_ref().map(|(lines, all)| (&lines[..], *all));
-        let (likeness, view) = view_picture(v, mesh, bvh, None, steps, output.picture_size);
+        let (likeness, view) = view_pictures(v, mesh, bvh, None, steps, output.picture_size);
         Pictures {
             likeness,
             view,
@@ -37,13 +37,13 @@ pub fn pictures(built: &Built) -> Vec<Pictures> {
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.
-pub fn picture_files(scene: &Scene, pictures: Vec<Pictures>, views: bool) -> Vec<OutputFile> {
+pub fn picture_files(scene: &Scene, pictures: &[Pictures], views: bool) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for (view, drawn) in scene.views.iter().zip(pictures) {
         let name = &view.name;
-        files.extend(views.then(|| file(format!("views/{name}.png"), drawn.view)));
-        let sheet = |(_, png)| file(format!("views/{name}-lights.png"), png);
-        files.extend(drawn.lights.map(sheet));
+        files.extend(views.then(|| file(format!("views/{name}.png"), drawn.view.sheet.clone())));
+        let sheet = |(_, png): &(_, Vec<u8>)| file(format!("views/{name}-lights.png"), png.clone());
+        files.extend(drawn.lights.as_ref().map(sheet));
     }
     files
 }

@@ -3,13 +3,8 @@
 use crate::certify::printability::PrintCheck;
 use crate::diag::Diagnostic;
 use crate::mimic::Energy;
-use crate::report::{CertificateReport, Report};
+use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Report};
 use crate::scene::Scene;
-
-/// Lengths below this are none, millimetres: a thousandth of what f32 files resolve.
-const NOTHING_MM: f64 = 1e-6;
-/// Duality gaps and residuals of a program in its own units; solutions come out two to four digits below.
-const OPTIMAL: f64 = 1e-6;
 
 /// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
 pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {

@@ -2,8 +2,8 @@
 
 use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash,
-    Transform,
+    Color, FillRule, IntRect, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke,
+    StrokeDash, Transform,
 };
 
 /// Largest side of a picture in pixels: 8k by 8k needs 256 MB.
@@ -49,6 +49,14 @@ pub fn put_square(
         let rgb = rgb.map(|c| c.round().clamp(0.0, 255.0) as u8);
         pixmap.data_mut()[at..at + 3].copy_from_slice(&rgb);
     }
+}
+
+/// The square with this top left corner, which lies within the picture.
+pub fn square(pixmap: &Pixmap, corner: (usize, usize), side: usize) -> Pixmap {
+    let [x, y] = [corner.0, corner.1].map(|c| c as i32);
+    let rect = IntRect::from_xywh(x, y, side as u32, side as u32);
+    rect.and_then(|r| pixmap.clone_rect(r))
+        .expect("a square within the picture")
 }
 
 /// The bytes of a PNG file.

@@ -9,13 +9,15 @@ const BROKEN: f64 = 1e-9;
 /// Conditions are tightened by this share of a layer's width, 7 nm of 7 mm, which is above the residuals of the solver: so the
 /// result keeps them strictly.
 pub const MARGIN: f64 = 1e-6;
-/// Rounds after which what is left is clamped: three were the most so far.
+/// Rounds after which what is left is clamped: four were the most so far.
 const ROUNDS: u32 = 12;
+
+/// Relative depths of all vertices and scales of all groups.
+pub type DepthsAndScales = (Vec<f64>, Vec<f64>);
 
 /// How an energy's unknowns relate to depths.
 pub struct Meaning<'a> {
-    /// Relative depths of all vertices and scales of all groups.
-    pub depths: &'a dyn Fn(&[f64]) -> (Vec<f64>, Vec<f64>),
+    pub depths: &'a dyn Fn(&[f64]) -> DepthsAndScales,
     /// The row of a condition's tangents at the depths given.
     pub tangent: &'a dyn Fn(&Condition, &[f64]) -> Option<Row>,
 }

@@ -86,6 +86,7 @@ pub const OUTPUT: Output = Output {
     lights: true,
     camouflage: true,
     split: false,
+    report_html: true,
     picture_size: 640,
     plan_width: 2000,
 };

@@ -72,6 +72,8 @@ pub struct Output {
     pub camouflage: bool,
     /// The forest in pieces too.
     pub split: bool,
+    /// The report as a page for people.
+    pub report_html: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

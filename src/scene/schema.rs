@@ -247,6 +247,7 @@ fn other_sections() -> Vec<Section> {
             field("lights", "true | false", output.lights, "each view under suns and an overcast sky: views/<view>-lights.png, and figures in report.json"),
             field("camouflage", "true | false", output.camouflage, "how like its model the forest is from elsewhere: camouflage.png and .svg, and figures in report.json"),
             field("split", "true | false", output.split, "plates, pillars one by one and layout.svg, as `build --split`"),
+            field("report_html", "true | false", output.report_html, "report.html, the report with all pictures as one page for people"),
             field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
             field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
         ]),

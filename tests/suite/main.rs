@@ -15,6 +15,7 @@ mod numerics;
 mod printability;
 mod readme;
 mod render;
+mod report_html;
 mod scene;
 mod scenes;
 mod shapes;

@@ -164,6 +164,7 @@ fn every_scene_gives_every_file_and_no_warning() {
             "camouflage.png",
             "camouflage.svg",
             "report.json",
+            "report.html",
         ]
         .map(String::from)
         .to_vec();

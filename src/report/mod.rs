@@ -1,7 +1,9 @@
-//! `report.json`: what was built and how good it is.
+//! `report.json`, and [`html`] for people: what was built and how good it is.
 //!
 //! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
+
+pub mod html;
 
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::Disturbance;
@@ -16,6 +18,11 @@ use crate::steps::StepSummary;
 use crate::view::View;
 use glam::{DMat4, DVec3};
 use serde::Serialize;
+
+/// Lengths below this are none, millimetres: a thousandth of what f32 files resolve.
+pub const NOTHING_MM: f64 = 1e-6;
+/// Duality gaps and residuals of a program in its own units; solutions come out two to four digits below.
+pub const OPTIMAL: f64 = 1e-6;
 
 /// The whole report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

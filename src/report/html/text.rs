@@ -1,0 +1,167 @@
+//! Small pieces of the page: escaped text, figures with units, tables, pictures in the text itself.
+
+use std::fmt::Write as _;
+
+/// Between a figure and its unit: narrow, and no line breaks there.
+const THIN: char = '\u{202F}';
+
+/// Text that can stand between tags and in attributes. Characters HTML does not know are left out.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\n' | '\t' => out.push(' '),
+            c if c.is_control() => {}
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A figure as people read it, with its exact value beside it for programs. A dash if it is not finite.
+fn figure(exact: f64, shown: &str) -> String {
+    if exact.is_finite() {
+        let shown = shown.replace('-', "\u{2212}");
+        format!("<data value=\"{exact:?}\">{shown}</data>")
+    } else {
+        "\u{2013}".to_owned()
+    }
+}
+
+/// With so many decimals and a unit. What would read as zero and is none is told as being below the last place.
+pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
+    let least = 0.1_f64.powi(decimals as i32);
+    let number = if exact > 0.0 && exact < least / 2.0 {
+        format!("below {least:.decimals$}")
+    } else {
+        rounded(exact, decimals)
+    };
+    let gap = if ["", "°", "′"].contains(&unit) {
+        String::new()
+    } else {
+        THIN.to_string()
+    };
+    figure(exact, &format!("{number}{gap}{unit}"))
+}
+
+/// The same, or `none`.
+pub fn measure_or(exact: Option<f64>, decimals: usize, unit: &str, none: &str) -> String {
+    exact.map_or_else(|| none.to_owned(), |x| measure(x, decimals, unit))
+}
+
+/// Without the sign of what rounds to zero.
+fn rounded(exact: f64, decimals: usize) -> String {
+    let nothing = exact.abs() < 0.1_f64.powi(decimals as i32) / 2.0;
+    format!("{:.decimals$}", if nothing { 0.0 } else { exact })
+}
+
+/// A share as a percentage, rounded down: only a perfect one reads as 100 %.
+pub fn percent(share: f64) -> String {
+    // What rounding took off a share of exactly 1/100 of a percent is given back.
+    let shown = (share * 1e4 + 1e-7).floor() / 100.0;
+    figure(share, &format!("{:.2}{THIN}%", shown + 0.0))
+}
+
+/// A count, its thousands set apart.
+pub fn count(n: usize) -> String {
+    let digits = n.to_string();
+    let mut shown = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            shown.push(THIN);
+        }
+        shown.push(digit);
+    }
+    format!("<data value=\"{n}\">{shown}</data>")
+}
+
+/// A small number by its power of ten.
+pub fn tiny(exact: f64) -> String {
+    if exact == 0.0 || !exact.is_finite() {
+        return figure(exact, "0");
+    }
+    let text = format!("{exact:.1e}");
+    let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+    figure(exact, &format!("{digits} × 10<sup>{power}</sup>"))
+}
+
+/// A place in millimetres.
+pub fn place(p: [f64; 3]) -> String {
+    let [x, y, z] = p.map(|c| figure(c, &rounded(c, 1)));
+    format!("<span class=\"place\">({x}, {y}, {z}){THIN}mm</span>")
+}
+
+/// A table that may be wider than the screen. Cells are HTML; the first of each row is its head.
+pub fn table<const N: usize>(caption: &str, heads: [&str; N], rows: &[[String; N]]) -> String {
+    let mut html =
+        format!("<div class=\"scroll\"><table>\n<caption>{caption}</caption>\n<thead><tr>");
+    for head in heads {
+        _ = write!(html, "<th scope=\"col\">{head}</th>");
+    }
+    html.push_str("</tr></thead>\n<tbody>\n");
+    for row in rows {
+        let (first, rest) = row.split_first().map_or(("", &[][..]), |(f, r)| (f, r));
+        _ = write!(html, "<tr><th scope=\"row\">{first}</th>");
+        for cell in rest {
+            _ = write!(html, "<td>{cell}</td>");
+        }
+        html.push_str("</tr>\n");
+    }
+    html.push_str("</tbody></table></div>\n");
+    html
+}
+
+/// The same, or nothing if there are no rows.
+pub fn table_if_any<const N: usize>(
+    caption: &str,
+    heads: [&str; N],
+    rows: &[[String; N]],
+) -> String {
+    if rows.is_empty() {
+        String::new()
+    } else {
+        table(caption, heads, rows)
+    }
+}
+
+/// A sign and a word: the colour alone says nothing.
+pub fn mark(holds: bool) -> &'static str {
+    if holds {
+        "<span class=\"mark holds\">✓ holds</span>"
+    } else {
+        "<span class=\"mark off\">! see here</span>"
+    }
+}
+
+/// A PNG within the page; `alt` is plain text.
+pub fn picture(png: &[u8], alt: &str) -> String {
+    format!(
+        "<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
+        escaped(alt),
+        base64(png)
+    )
+}
+
+/// RFC 4648, with padding.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |k: usize| u32::from(three.get(k).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for k in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * k) & 63) as usize];
+            text.push(if k <= three.len() {
+                letter as char
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
