@@ -92,19 +92,18 @@ fn at_sides(target: &Target, map: &ViewMap, groups: &Groups) -> Vec<Order> {
             for end in [k, (k + 1) % 3] {
                 let q = map.points[cell.corners[end] as usize];
                 let at = [face, other].map(|f| anchor(target, f as usize, q));
-                if (at[0].1 - at[1].1).abs() > TOGETHER_MM {
-                    orders.extend(order(at, [g, h]).map(|o| o.1));
-                }
+                orders.extend(order(at, [g, h], TOGETHER_MM).map(|o| o.1));
             }
         }
     }
     orders
 }
 
-/// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they touch.
-fn order(at: [(Anchor, f64); 2], groups: [u32; 2]) -> Option<(bool, Order)> {
+/// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they are no
+/// farther `apart` than that, millimetres.
+fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Option<(bool, Order)> {
     let [own, other] = at.map(|a| a.1);
-    if (own - other).abs() < APART * own.max(other) {
+    if (own - other).abs() <= apart {
         return None;
     }
     let behind = own > other;
@@ -187,7 +186,9 @@ impl Finder<'_> {
             return Vec::new();
         }
         let at = faces.map(|f| anchor(self.target, f as usize, q));
-        common.iter().filter_map(|g| order(at, *g)).collect()
+        let apart = APART * at[0].1.max(at[1].1);
+        let orders = common.iter().filter_map(|g| order(at, *g, apart));
+        orders.collect()
     }
 }
 
