@@ -388,7 +388,10 @@ fn verdict(scene: &Scene, build: &Build, report: &Value) -> Vec<String> {
             && number(c, "contested_left_arcmin2") == 0.0
     };
     let whole = number(&report["solid"], "parts") == 1.0;
-    let wanted = certificates.len() == scene.views.len() && certificates.iter().all(holds) && whole;
+    let mut prints = report["print"].as_array().into_iter().flatten();
+    let printable = prints.all(|check| check["ok"] == true);
+    let proved = certificates.len() == scene.views.len() && certificates.iter().all(holds);
+    let wanted = proved && whole && printable;
     let mut found = Vec::new();
     if report["ok"].as_bool() != Some(wanted) || build.failures.is_empty() != wanted {
         found.push(format!(
