@@ -75,20 +75,43 @@ impl Raster {
 
     /// First hits with some meshes, each with an owner.
     pub fn cast<'a>(&self, meshes: impl IntoIterator<Item = (u32, &'a TriMesh)>) -> Hits {
-        let mut hits = Hits {
-            depth: vec![f64::INFINITY; self.count()],
-            owner: vec![u32::MAX; self.count()],
-        };
+        let mut hits = self.nothing();
         for (owner, mesh) in meshes {
             for face in 0..mesh.faces.len() {
-                let corners = mesh.corners(face).map(|p| self.turned(p));
-                let front = cut(&corners);
-                for k in 1..front.len().saturating_sub(1) {
-                    self.draw([front[0], front[k], front[k + 1]], owner, &mut hits);
-                }
+                self.draw_face(mesh, face, owner, &mut hits);
             }
         }
         hits
+    }
+
+    /// First hits with the faces of a mesh, each its own owner.
+    pub fn cast_faces(&self, mesh: &TriMesh) -> Hits {
+        let mut hits = self.nothing();
+        for face in 0..mesh.faces.len() {
+            self.draw_face(mesh, face, face as u32, &mut hits);
+        }
+        hits
+    }
+
+    /// Depth at which a ray meets the plane of a face.
+    pub fn plane_depth(&self, mesh: &TriMesh, face: u32, ray: usize) -> f64 {
+        let [a, b, c] = mesh.corners(face as usize);
+        let normal = (b - a).cross(c - a);
+        normal.dot(a - self.eye) / normal.dot(self.direction(ray))
+    }
+
+    fn nothing(&self) -> Hits {
+        Hits {
+            depth: vec![f64::INFINITY; self.count()],
+            owner: vec![u32::MAX; self.count()],
+        }
+    }
+
+    fn draw_face(&self, mesh: &TriMesh, face: usize, owner: u32, hits: &mut Hits) {
+        let front = cut(&mesh.corners(face).map(|p| self.turned(p)));
+        for k in 1..front.len().saturating_sub(1) {
+            self.draw([front[0], front[k], front[k + 1]], owner, hits);
+        }
     }
 
     fn draw(&self, corners: [DVec3; 3], owner: u32, hits: &mut Hits) {

@@ -124,6 +124,25 @@ fn odd_texts_are_errors_not_crashes() {
 }
 
 #[test]
+fn pillars_too_detailed_together_are_refused_before_they_are_made() {
+    for (sides, rows, columns) in [(512, 100, 100), (150, 140, 140)] {
+        let text = PLAIN
+            .replace(
+                "Rectangle(width: 3, depth: 3)",
+                &format!("Polygon(sides: {sides}, radius: 2)"),
+            )
+            .replace("rows: 8", &format!("rows: {rows}"))
+            .replace("columns: 8", &format!("columns: {columns}"));
+        let told = errors(&text);
+        assert!(
+            told.iter()
+                .any(|p| p.message.starts_with("outlines too detailed")),
+            "{sides}: {told:?}"
+        );
+    }
+}
+
+#[test]
 fn no_prefix_of_a_scene_crashes() {
     for end in 0..PLAIN.len() - 2 {
         assert!(resolve(&PLAIN[..end]).is_err(), "cut at {end}");
