@@ -159,7 +159,8 @@ pub fn sighted(
         .sum();
     let least = DISTURBED_SHARE * seen_sr * SQUARE_ARCMIN;
     let small = found.disturbances.extract_if(.., |d| d.arcmin2 < least);
-    found.small_arcmin2 = small.map(|d| d.arcmin2).sum();
+    // Nothing at all sums to -0.
+    found.small_arcmin2 = small.map(|d| d.arcmin2).sum::<f64>() + 0.0;
     found.rays = cells.iter().map(|c| c.parts * c.parts).sum();
     let of_model = |faces: std::ops::Range<usize>| {
         let lost = misses.iter().filter(|m| {

@@ -164,7 +164,7 @@ fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
             .filter(|v| !v.is_empty())
             .map(PathBuf::from)
     });
-    let model_files = ModelFiles::of(&args.scene, library.as_deref());
+    let model_files = ModelFiles::of(&args.scene, library.as_deref(), args.allow_outside);
     match scene::resolve(&source.text, &|name| model_files.read(name)) {
         Err(problems) => stop(&problems, Some(&source)),
         Ok(Warned { value, warnings }) => {

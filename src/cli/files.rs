@@ -1,7 +1,8 @@
 //! Reading: the scene's text and the model files it names.
 //!
-//! A scene may come from anywhere, so what it names is read only if it is a regular file in or below the scene's folder,
-//! or if it lies, by its bare file name, in the folder the user gave with `--models`.
+//! A scene may come from anywhere, so what it names is read only if it is a regular file in or below the scene's folder, links
+//! followed, or if it lies, by its bare file name, in the folder the user gave with `--models`. Only `--allow-outside` lets a
+//! scene name other files. What lies outside is not even looked at: no message tells whether it is there.
 
 use pillarforest::diag::{Diagnostic, Place, escaped};
 use pillarforest::scene::nearest;
@@ -68,13 +69,15 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
 
 /// Where model files are looked for.
 pub struct ModelFiles {
-    pub folder: PathBuf,
-    pub library: Option<PathBuf>,
+    folder: PathBuf,
+    library: Option<PathBuf>,
+    /// Whether the user lets the scene name files anywhere.
+    anywhere: bool,
 }
 
 impl ModelFiles {
-    /// The model files of a scene.
-    pub fn of(scene: &Path, library: Option<&Path>) -> Self {
+    /// The model files of a scene; `anywhere` lets it name files outside of its folder.
+    pub fn of(scene: &Path, library: Option<&Path>, anywhere: bool) -> Self {
         let folder = scene
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
@@ -82,34 +85,39 @@ impl ModelFiles {
         Self {
             folder: folder.to_path_buf(),
             library: library.map(Path::to_path_buf),
+            anywhere,
         }
     }
 
     /// Reads the file a scene calls `name`.
     ///
     /// # Errors
-    /// The name is no plain relative path, or there is no such regular file.
+    /// The name is no plain path, leads out of the scene's folder, or there is no such regular file.
     pub fn read(&self, name: &str) -> Result<Vec<u8>, Diagnostic> {
         well_named(name)?;
-        let relative = Path::new(name);
-        if let (Some(library), Some(file)) = (&self.library, relative.file_name()) {
+        let named = Path::new(name);
+        if let (Some(library), Some(file)) = (&self.library, named.file_name()) {
             let found = library.join(file);
             if found.exists() {
                 return regular(&found);
             }
         }
-        let leaves = relative
-            .components()
-            .any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
-        if leaves {
-            return Err(Diagnostic::error("the model file lies outside the scene's folder")
-                .help("copy it beside the scene, or give its folder: `--models DIR` finds it by its file name"));
+        if !self.anywhere && climbs(named) {
+            return Err(outside("the model file lies outside the scene's folder"));
         }
-        let path = self.folder.join(relative);
-        if !path.exists() {
-            return Err(self.missing(&path));
+        let path = self.folder.join(named);
+        match fs::canonicalize(&path) {
+            Ok(found) if self.may_read(&found) => regular(&found),
+            Ok(_) => Err(outside(
+                "the model file is a link that leads outside the scene's folder",
+            )),
+            Err(_) => Err(self.missing(&path)),
         }
-        regular(&path)
+    }
+
+    /// Whether a path without links lies where scenes may read.
+    fn may_read(&self, found: &Path) -> bool {
+        self.anywhere || fs::canonicalize(&self.folder).is_ok_and(|f| found.starts_with(f))
     }
 
     /// No such file: where it was looked for, and what is there instead.
@@ -125,7 +133,9 @@ impl ModelFiles {
             .to_string_lossy()
             .to_string();
         let folder = path.parent().unwrap_or(Path::new("."));
-        let mut there: Vec<String> = fs::read_dir(folder)
+        let may_list = fs::canonicalize(folder).is_ok_and(|f| self.may_read(&f));
+        let list = may_list.then(|| fs::read_dir(folder).ok()).flatten();
+        let mut there: Vec<String> = list
             .into_iter()
             .flatten()
             .take(1000)
@@ -140,6 +150,26 @@ impl ModelFiles {
             None => problem.help("models kept elsewhere are found with `--models DIR` or the variable PILLARFOREST_MODELS"),
         }
     }
+}
+
+/// Whether a path, read as text, leaves the folder it starts in.
+fn climbs(path: &Path) -> bool {
+    let mut depth = 0i32;
+    path.components().any(|c| {
+        depth += match c {
+            Component::Normal(_) => 1,
+            Component::CurDir => 0,
+            Component::ParentDir => -1,
+            Component::Prefix(_) | Component::RootDir => return true,
+        };
+        depth < 0
+    })
+}
+
+fn outside(why: &str) -> Diagnostic {
+    Diagnostic::error(why)
+        .help("copy it beside the scene, or give its folder: `--models DIR` finds it by its file name")
+        .help("`--allow-outside` lets a scene that you trust name any file")
 }
 
 /// Refuses names that mean something else on another system, or no file at all.

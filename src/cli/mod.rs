@@ -145,6 +145,9 @@ pub struct SceneArgs {
     /// Where to look first for model files, by file name [env: PILLARFOREST_MODELS]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub models: Option<PathBuf>,
+    /// Let the scene name model files outside of its folder: absolute, by `..` or through links
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Change a value of the scene for this run: pillars[0].height=80, views[front].eye=(0,-300,60), energy=Curvature()
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub sets: Vec<String>,

@@ -1,7 +1,8 @@
 //! Writing: whole sets of files, complete or not at all.
 //!
-//! Everything is written to a temporary directory beside the target first and then renamed into place, so that an
-//! interrupted or failed run never leaves a torn file.
+//! Everything is written to a temporary directory inside the output directory first and then renamed into place, so that an
+//! interrupted or failed run never leaves a torn file. Nothing is written outside: a link in a file's place is replaced, not
+//! followed, and one in the place of a folder is refused.
 
 use pillarforest::compile::OutputFile;
 use pillarforest::diag::Diagnostic;
@@ -27,6 +28,9 @@ impl Target {
     /// The target cannot be written: a file in the way, an unknown ending, no such place.
     pub fn new(output: Option<&Path>, scene: &Path, allowed: &[&str]) -> Result<Self, Diagnostic> {
         let stem = scene.file_stem().unwrap_or("scene".as_ref());
+        // A scene called `...ron` has the stem `..`.
+        let plain = Path::new(stem).components().all(is_plain);
+        let stem = if plain { stem } else { "scene".as_ref() };
         let path = output.map_or_else(|| Path::new("out").join(stem), Path::to_path_buf);
         let fail = |why: String| {
             Diagnostic::error(format!("cannot write to \"{}\": {why}", path.display()))
@@ -98,11 +102,7 @@ impl Target {
 
 /// Output names come from the program; a slip there must not write elsewhere.
 fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
-    let stays = |f: &&OutputFile| {
-        Path::new(&f.path)
-            .components()
-            .all(|c| matches!(c, Component::Normal(_)))
-    };
+    let stays = |f: &&OutputFile| Path::new(&f.path).components().all(is_plain);
     match files.iter().find(|f| !stays(f)) {
         Some(file) => Err(Diagnostic::error(format!(
             "output name \"{}\" leaves the output directory",
@@ -112,24 +112,53 @@ fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
     }
 }
 
+fn is_plain(part: Component) -> bool {
+    matches!(part, Component::Normal(_))
+}
+
 fn into_directory(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
-    let parent = parent(directory);
-    fs::create_dir_all(parent)?;
+    let fresh = !directory.exists();
+    fs::create_dir_all(directory)?;
+    let written = staged(directory, files);
+    if fresh && written.is_err() {
+        // Only if it is still empty.
+        let _ = fs::remove_dir(directory);
+    }
+    written
+}
+
+fn staged(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
+    for file in files {
+        no_links(directory, parent(Path::new(&file.path)))?;
+    }
     let staging = tempfile::Builder::new()
         .prefix(".pillarforest-")
-        .tempdir_in(parent)?;
+        .tempdir_in(directory)?;
     for file in files {
         let path = staging.path().join(&file.path);
         fs::create_dir_all(self::parent(&path))?;
         fs::write(&path, &file.bytes)?;
     }
-    // Only now is the target touched, by renames on one file system; other files in it stay.
+    // Only now are other files in the target touched, by renames on one file system; those not of this run stay.
     for file in files {
         let path = directory.join(&file.path);
         fs::create_dir_all(self::parent(&path))?;
         fs::rename(staging.path().join(&file.path), &path)?;
     }
     staging.close()
+}
+
+/// Folders inside of the output directory must not lead out of it.
+fn no_links(directory: &Path, folder: &Path) -> std::io::Result<()> {
+    let mut path = directory.to_path_buf();
+    for part in folder.components().filter(|c| is_plain(*c)) {
+        path.push(part);
+        if path.is_symlink() {
+            let why = format!("\"{}\" is a link", path.display());
+            return Err(std::io::Error::other(why));
+        }
+    }
+    Ok(())
 }
 
 /// Writes one file by way of a temporary one beside it.

@@ -60,11 +60,30 @@ pub fn all(
 fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
     let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
     let mut worst: BTreeMap<(usize, usize, bool), Tight> = BTreeMap::new();
+    let mut work = 0u64;
     for (i, j) in neighbours(pillars, narrow) {
         let (a, b) = (&pillars[i], &pillars[j]);
-        let gap = match (a.round, b.round) {
-            (true, true) => a.axis.distance(b.axis) - a.reach - b.reach,
-            _ => shapes::gap(&a.profile, &b.profile),
+        let round = a.round && b.round;
+        work += if round {
+            1
+        } else {
+            (a.profile.len() * b.profile.len()) as u64
+        };
+        if work > defaults::MOST_CORNER_PAIRS {
+            // An overlap among them is told below and enough.
+            if worst.keys().all(|(.., overlap)| !overlap) {
+                let text = "outlines too detailed for pillars so close together: their gaps cannot be checked";
+                reader.problems.push(
+                    error_at(&b.span, text)
+                        .help("fewer `sides` or `points`, or pillars farther apart"),
+                );
+            }
+            break;
+        }
+        let gap = if round {
+            a.axis.distance(b.axis) - a.reach - b.reach
+        } else {
+            shapes::gap(&a.profile, &b.profile)
         };
         if gap < narrow {
             let key = (a.span.start, b.span.start, gap <= 0.0);

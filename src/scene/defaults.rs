@@ -115,6 +115,10 @@ pub const MOST_MODELS: usize = 256;
 pub const MOST_PILLARS: u64 = 20_000;
 pub const MANY_PILLARS: u64 = 1_500;
 pub const MOST_POINTS: usize = 2_000;
+/// Corners of all pillars' outlines together: a solid takes some hundred bytes for each. 20,000 round pillars have 1.3 million.
+pub const MOST_CORNERS: u64 = 2_000_000;
+/// Sum of the squares of each outline's corners, for what is quadratic in them (widths, triangles): a second or two.
+pub const MOST_CORNER_PAIRS: u64 = 1_000_000_000;
 pub const FACETS: std::ops::RangeInclusive<u32> = 8..=512;
 pub const PICTURE_SIZES: std::ops::RangeInclusive<u32> = 64..=4096;
 pub const PLAN_WIDTHS: std::ops::RangeInclusive<u32> = 400..=8000;

@@ -58,7 +58,13 @@ fn line_of(text: &str, offset: usize) -> usize {
 pub fn explain(text: &str, span: &Span, error: &SpannedError, wanted: &str) -> Vec<Diagnostic> {
     let slice = &text[span.clone()];
     match &error.code {
-        Error::NoSuchStructField { expected, .. } => unknown_fields(slice, span.start, expected),
+        Error::NoSuchStructField {
+            expected, found, ..
+        } => match unknown_fields(slice, span.start, expected) {
+            // RON looks a name up before it sees that no `:` follows it.
+            list if list.is_empty() => vec![no_colon(slice, span, found)],
+            list => list,
+        },
         Error::DuplicateStructField { field, .. } => vec![duplicate_field(slice, span, field)],
         Error::NoSuchEnumVariant {
             expected, found, ..
@@ -102,6 +108,17 @@ fn unknown_fields(slice: &str, base: usize, expected: &[&'static str]) -> Vec<Di
             .help(format!("known here: {}", expected.join(", ")))
         })
         .collect()
+}
+
+fn no_colon(slice: &str, span: &Span, found: &str) -> Diagnostic {
+    let name = slice.find(found).map_or(span.clone(), |at| {
+        span.start + at..span.start + at + found.len()
+    });
+    let text = format!(
+        "no `:` follows `{}`, and no field is called so",
+        printable(found)
+    );
+    error_at(&name, text).help("fields are written `name: value`, and divided by commas")
 }
 
 fn duplicate_field(slice: &str, span: &Span, field: &str) -> Diagnostic {

@@ -89,7 +89,7 @@ fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Wis
         reader.error(span, "a forest needs at least one pillar");
     }
     let mut entries = Vec::new();
-    let mut total = 0u64;
+    let (mut total, mut corners, mut pairs) = (0u64, 0u64, 0u64);
     for item in list {
         let item_span = reader.span(item);
         let Some(raw) = reader.value(item) else {
@@ -106,6 +106,18 @@ fn entries(reader: &mut Reader, list: &List<RawPillars>, span: &Span, depth: Wis
                     "{total} pillars up to here; the limit is {}",
                     defaults::MOST_PILLARS
                 ),
+            );
+            return Vec::new();
+        }
+        let (pillars, sides) = (entry.spots.len() as u64, entry.profile.len() as u64);
+        corners += pillars * sides;
+        pairs += pillars * sides * sides;
+        if corners > defaults::MOST_CORNERS || pairs > defaults::MOST_CORNER_PAIRS {
+            let text =
+                format!("outlines too detailed for so many pillars: {corners} corners up to here");
+            reader.problems.push(
+                error_at(&item_span, text)
+                    .help("fewer `facets`, `sides` or `points`, or fewer pillars"),
             );
             return Vec::new();
         }

@@ -530,3 +530,39 @@ fn listed_files_behave_as_listed() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// The same for scenes, through the command. Their language is an invented one, so all of them are errors here: what counts
+/// is that they end with one clean set of messages. Each has a counterpart in this language under tests/cases, in `scene` or `files`.
+#[test]
+fn listed_scenes_end_with_messages() {
+    let Ok(dir) = std::env::var("PILLARFOREST_HOSTILE") else {
+        println!("skipped: PILLARFOREST_HOSTILE names no directory with a MANIFEST.tsv");
+        return;
+    };
+    let manifest = std::fs::read_to_string(Path::new(&dir).join("MANIFEST.tsv")).unwrap();
+    let empty = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for row in manifest.lines().skip(1) {
+        let Some(name) = row.split('\t').next().filter(|n| n.ends_with(".ron")) else {
+            continue;
+        };
+        let path = Path::new(&dir).join(name);
+        let args = ["build", path.to_str().unwrap(), "--diagnostics", "short"];
+        let (code, out, err) = crate::cli::run(empty.path(), &args);
+        let odd = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+        assert_eq!((code, out.as_str()), (1, ""), "{name}: {err}");
+        assert!(err.contains("error: "), "{name}: {err}");
+        assert!(
+            !err.contains(odd) && !err.contains("root:"),
+            "{name}: {err}"
+        );
+        assert!(
+            err.lines().count() <= 102 && err.len() < 100_000,
+            "{name}: {}",
+            err.len()
+        );
+        count += 1;
+    }
+    assert!(count > 60, "{count} scenes");
+    assert_eq!(std::fs::read_dir(empty.path()).unwrap().count(), 0);
+}

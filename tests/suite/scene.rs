@@ -124,6 +124,25 @@ fn odd_texts_are_errors_not_crashes() {
 }
 
 #[test]
+fn pillars_too_detailed_together_are_refused_before_they_are_made() {
+    for (sides, rows, columns) in [(512, 100, 100), (150, 140, 140)] {
+        let text = PLAIN
+            .replace(
+                "Rectangle(width: 3, depth: 3)",
+                &format!("Polygon(sides: {sides}, radius: 2)"),
+            )
+            .replace("rows: 8", &format!("rows: {rows}"))
+            .replace("columns: 8", &format!("columns: {columns}"));
+        let told = errors(&text);
+        assert!(
+            told.iter()
+                .any(|p| p.message.starts_with("outlines too detailed")),
+            "{sides}: {told:?}"
+        );
+    }
+}
+
+#[test]
 fn no_prefix_of_a_scene_crashes() {
     for end in 0..PLAIN.len() - 2 {
         assert!(resolve(&PLAIN[..end]).is_err(), "cut at {end}");
@@ -188,12 +207,12 @@ fn a_fitted_model_has_its_size_stands_on_its_place_and_faces_the_eye() {
         let model = &view.models[0];
         let (lo, hi) = model.mesh.bounds().expect("vertices");
         assert!((hi.z - lo.z - 50.0).abs() < 1e-9 && (lo.z - 5.0).abs() < 1e-9);
-        // The vertex farthest out from the model's place.
-        let place = glam::DVec3::new(3.0, 4.0, 5.0).truncate();
-        let reach = |v: &glam::DVec3| v.truncate().distance(place);
-        let nose = *(model.mesh.vertices.iter())
-            .max_by(|a, b| reach(a).total_cmp(&reach(b)))
-            .expect("vertices");
+        // Vertices are sorted on reading. Three lie at the bottom; the nose is the nearest to its middle.
+        let bottom = model.mesh.vertices.iter().filter(|v| v.z < lo.z + 1e-6);
+        let middle = glam::DVec3::new(3.0, 4.0, 5.0);
+        let nose = *bottom
+            .min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)))
+            .expect("a bottom");
         let to_eye = (view.eye - glam::DVec3::new(3.0, 4.0, 5.0))
             .truncate()
             .normalize();
