@@ -538,7 +538,7 @@ impl Looked {
         let depth = &self.target.depth;
         let joined = |from: usize, to: usize| {
             let there = (self.raster).plane_depth(&self.models, self.target.owner[from], to);
-            !((there - depth[to]).abs() > JUMP)
+            there.is_nan() || (there - depth[to]).abs() <= JUMP
         };
         if !depth[a].is_finite() || !depth[b].is_finite() || joined(a, b) || joined(b, a) {
             return 0.0;
