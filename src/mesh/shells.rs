@@ -86,8 +86,27 @@ pub fn without_cavities(mesh: TriMesh) -> TriMesh {
         .collect();
     let filled = without(mesh, &component, &hollow);
     let component = face_components(&filled);
-    let buried: Vec<bool> = shells(&filled).iter().map(|s| s.winding > 0).collect();
+    let buried = buried(&filled, &component);
     without(filled, &component, &buried)
+}
+
+/// Which shells lie inside of others with all their faces: one that touches another may seem to by a single point.
+fn buried(mesh: &TriMesh, component: &[u32]) -> Vec<bool> {
+    let mut buried: Vec<bool> = shells(mesh).iter().map(|s| s.winding > 0).collect();
+    if buried.contains(&true) {
+        let boxes: Vec<Box3> = (0..mesh.faces.len())
+            .map(|f| Box3::of_face(mesh, f))
+            .collect();
+        let tree = BoxTree::new(&boxes);
+        for (face, own) in component.iter().enumerate() {
+            if buried[*own as usize] {
+                let middle = mesh.corners(face).iter().sum::<DVec3>() / 3.0;
+                let around = winding(mesh, &tree, middle, |f| component[f] != *own);
+                buried[*own as usize] = around > 0;
+            }
+        }
+    }
+    buried
 }
 
 /// The mesh without the shells that are `unwanted`.

@@ -421,7 +421,19 @@ fn hollows_are_filled_and_parts_are_kept() {
     mesh.append(&turned_inside_out(cuboid([0.25; 3], [0.5; 3])));
     mesh.append(&cuboid([3.0; 3], [1.0; 3]));
     assert_eq!(Solid::new(mesh.clone()).unwrap().cavities(), 1);
+    // A crumb loose in the hollow goes with it.
+    mesh.append(&cuboid([0.4; 3], [0.1; 3]));
     let filled = Solid::new(without_cavities(mesh)).unwrap();
     assert_eq!((filled.cavities(), filled.parts()), (0, 2));
     assert!((filled.volume_mm3() - 2.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_only_touches_a_body_is_not_taken_for_a_part_of_it() {
+    // Two boxes that share a side, as two shells: each has corners on the other.
+    let mut mesh = cuboid([0.0; 3], [1.0; 3]);
+    mesh.append(&cuboid([1.0, 0.25, 0.25], [1.0, 0.5, 0.5]));
+    let kept = without_cavities(mesh.clone());
+    assert_eq!(kept.faces.len(), mesh.faces.len());
+    assert!((kept.volume() - 1.25).abs() < 1e-12);
 }
