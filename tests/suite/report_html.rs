@@ -438,7 +438,7 @@ fn it_stands_without_what_is_optional() {
     let build = built(&bare);
     let html = page(&build);
     assert_well_formed(html);
-    for section in ["plan", "camouflage", "print"] {
+    for section in ["plan", "camouflage"] {
         assert!(
             !html.contains(&format!("<section id=\"{section}\">")),
             "{section}"
