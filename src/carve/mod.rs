@@ -236,7 +236,13 @@ fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Solid>, CarveError> 
 pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<Solid, CarveError> {
     let mut defects = Vec::new();
     for tolerance in [1e-4, 0.0, 5e-4] {
-        match Solid::new(without_cavities(mend(&solid.simplified(tolerance)))) {
+        let mesh = solid.simplified(tolerance);
+        // Vertices that move by the tolerance sweep no more than this: now and then simplifying loses whole pieces.
+        let swept = tolerance * mesh.area();
+        if tolerance > 0.0 && (mesh.volume() - solid.volume()).abs() > swept {
+            continue;
+        }
+        match Solid::new(without_cavities(mend(&mesh))) {
             Ok(solid) => return Ok(solid),
             Err(d) => defects = d,
         }

@@ -252,3 +252,37 @@ fn inspect_refuses_what_it_cannot_read() {
     assert_eq!(run(folder.path(), &["inspect", "cube.obj"]).0, 0);
     assert_eq!(run(folder.path(), &["inspect"]).0, 2);
 }
+
+/// One pillar that is narrower than the cube before it.
+const TOO_NARROW: &str = r#"(
+    models: [(name: "cube", file: "cube.obj", place: Fit(height: 10, at: (0, 0, 8)))],
+    views: [(name: "front", eye: (0, -150, 13), models: ["cube"])],
+    pillars: [(shape: Round(radius: 4), height: 30, places: At([(0, 0)]))],
+    output: (forest_glb: false, plan: false, views: false, lights: false, camouflage: false),
+)"#;
+
+#[test]
+fn what_does_not_hold_is_told_and_written_only_by_force() {
+    let folder = folder(TOO_NARROW);
+    let (code, out, err) = run(folder.path(), &["build", "-o", "made"]);
+    assert_eq!((code, out.as_str()), (3, ""), "{err}");
+    for part in [
+        "error: view \"front\" misses",
+        "no pillar stands there",
+        "add a pillar there",
+        "1 error. Nothing was written; `--force` writes it all the same.",
+    ] {
+        assert!(err.contains(part), "{part}\n{err}");
+    }
+    assert!(!folder.path().join("made").exists());
+    let (code, out, err) = run(folder.path(), &["build", "-o", "made", "--force"]);
+    assert_eq!(code, 3, "{err}");
+    assert!(out.starts_with("wrote made"), "{out}");
+    let report = fs::read_to_string(folder.path().join("made/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["ok"], false);
+    assert_eq!(report["failures"].as_array().map(Vec::len), Some(1));
+    let gaps = report["views"][0]["certificate"]["gaps"].as_array();
+    assert!(gaps.is_some_and(|g| g.iter().all(|g| g["cause"] == "no_pillar")));
+    assert!(folder.path().join("made/forest.stl").exists());
+}
