@@ -22,7 +22,8 @@
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
-//! | forest and views | [`render::view_picture`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
+//! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
+//! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //!
 //! # Symbols
 //!

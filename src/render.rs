@@ -70,19 +70,6 @@ pub struct ViewPictures {
     pub panels: [Vec<u8>; 3],
 }
 
-/// [`view_pictures`] without the separate panels.
-pub fn view_picture(
-    view: &View,
-    forest: &TriMesh,
-    forest_bvh: &Bvh,
-    colours: Option<&[[u8; 3]]>,
-    steps: Option<(&[StepLine], StepSummary)>,
-    size_px: u32,
-) -> (Likeness, Vec<u8>) {
-    let (likeness, pictures) = view_pictures(view, forest, forest_bvh, colours, steps, size_px);
-    (likeness, pictures.sheet)
-}
-
 /// Draws and measures one view. `size_px` is the side of one of the three panels (16 to 2048), a panel being as in
 /// [`camera`]. `colours`, one per face of the forest, tint its panel lightly. `steps` are drawn over the errors and told in the
 /// caption: the lines where the surface was torn, if it might be.

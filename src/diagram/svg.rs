@@ -1,6 +1,7 @@
 //! Drawings as SVG text: one unit is one millimetre on paper.
 
 use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
+use crate::formats::markup::escaped;
 use glam::DVec2;
 use std::fmt::Write as _;
 
@@ -85,16 +86,4 @@ fn number(x: f64) -> String {
     } else {
         text.to_owned()
     }
-}
-
-fn escaped(text: &str) -> String {
-    let clean: String = text
-        .chars()
-        .filter(|c| !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}'))
-        .collect();
-    clean
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }

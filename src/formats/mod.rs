@@ -5,6 +5,7 @@
 
 mod glb;
 pub mod inspect;
+pub mod markup;
 pub mod read;
 mod read_3mf;
 mod read_obj;

@@ -5,6 +5,7 @@
 //! (slicers of the Bambu and Orca family match the literal prefix `m` and read nothing else).
 
 use crate::formats::Part;
+use crate::formats::markup::escaped;
 use crate::mesh::TriMesh;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
@@ -262,23 +263,4 @@ fn push_object(xml: &mut String, id: usize, pid: usize, part: &Part) {
         _ = writeln!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
     xml.push_str("    </triangles>\n   </mesh>\n  </object>\n");
-}
-
-/// Text that may stand in XML content and attributes: markup escaped, line breaks and tabs as spaces, characters that XML 1.0 forbids left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&apos;"),
-            '\n' | '\t' => out.push(' '),
-            '\u{FFFE}' | '\u{FFFF}' => {}
-            c if c.is_control() => {}
-            c => out.push(c),
-        }
-    }
-    out
 }

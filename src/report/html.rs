@@ -11,10 +11,11 @@ mod views;
 
 use super::Report;
 use crate::certify::camouflage::Camouflage;
+use crate::formats::markup::escaped;
 use crate::render::ViewPictures;
 use serde_json::Value;
 use std::fmt::Write as _;
-use text::{count, escaped, mark, measure, measure_or, percent, table, table_if_any};
+use text::{count, mark, measure, measure_or, percent, table, table_if_any};
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");

@@ -4,7 +4,7 @@ use crate::shapes::{ORANGE, ball, grove, view};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::mesh::TriMesh;
-use pillarforest::render::{Likeness, camera, thumbnail, view_picture};
+use pillarforest::render::{Likeness, camera, thumbnail, view_pictures};
 use pillarforest::report::{Report, SolidReport, ViewReport};
 use pillarforest::steps::{StepLine, StepSummary};
 use pillarforest::view::View;
@@ -21,7 +21,7 @@ fn owl() -> View {
 }
 
 fn likeness(view: &View, forest: &TriMesh) -> Likeness {
-    view_picture(view, forest, &Bvh::new(forest), None, None, 96).0
+    view_pictures(view, forest, &Bvh::new(forest), None, None, 96).0
 }
 
 fn about_eye(factor: f64) -> DMat4 {
@@ -140,7 +140,7 @@ fn the_number_of_threads_changes_no_byte() {
             .unwrap();
         pool.install(|| {
             (
-                view_picture(&views[0], &forest, &bvh, Some(&colours), None, 64),
+                view_pictures(&views[0], &forest, &bvh, Some(&colours), None, 64),
                 thumbnail(&forest, &bvh, None, 64),
             )
         })
@@ -152,9 +152,12 @@ fn the_number_of_threads_changes_no_byte() {
 fn pictures_show_three_panels_and_thumbnails_a_forest() {
     let (views, forest) = grove_forest();
     let bvh = Bvh::new(&forest);
-    let picture =
-        tiny_skia::Pixmap::decode_png(&view_picture(&views[0], &forest, &bvh, None, None, 100).1)
-            .unwrap();
+    let picture = tiny_skia::Pixmap::decode_png(
+        &view_pictures(&views[0], &forest, &bvh, None, None, 100)
+            .1
+            .sheet,
+    )
+    .unwrap();
     assert!(picture.width() >= 300 && picture.height() >= 100);
     let drawn = |p: &tiny_skia::Pixmap, left: u32, right: u32| {
         let inside = p
@@ -208,7 +211,9 @@ fn torn_owl(lines: &[StepLine]) -> tiny_skia::Pixmap {
         ..StepSummary::default()
     };
     let steps = Some((lines, summary));
-    let (_, png) = view_picture(&owl(), forest, &Bvh::new(forest), None, steps, 200);
+    let png = view_pictures(&owl(), forest, &Bvh::new(forest), None, steps, 200)
+        .1
+        .sheet;
     tiny_skia::Pixmap::decode_png(&png).unwrap()
 }
 
@@ -261,7 +266,9 @@ fn higher_steps_are_darker_and_lines_out_of_the_picture_are_left_out() {
 #[test]
 fn without_steps_only_the_caption_tells_whether_they_were_allowed() {
     let forest = &owl().models[0].mesh;
-    let (_, png) = view_picture(&owl(), forest, &Bvh::new(forest), None, None, 200);
+    let png = view_pictures(&owl(), forest, &Bvh::new(forest), None, None, 200)
+        .1
+        .sheet;
     let (never, none) = (tiny_skia::Pixmap::decode_png(&png).unwrap(), torn_owl(&[]));
     assert_eq!(differing(&never, &none), []);
     assert_ne!(never.data(), none.data());

@@ -14,7 +14,7 @@ const NORMAL: NormalOptions = NormalOptions {
     ordering: true,
     reweight: 0,
 };
-const STEPS: StepOptions = StepOptions {
+pub const STEPS: StepOptions = StepOptions {
     limits: StepLimits {
         least_mm: 0.1,
         highest_mm: None,

@@ -1,6 +1,7 @@
 //! Tolerance of eyes: closed forms against constructions of their own, and against rays at finished solids.
 
 use crate::shapes::{EYE, MIDDLE, ORANGE, Setting, ball, pillar, prism, view, wavy};
+use crate::steps::STEPS;
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::carve::{ViewRelief, carve};
@@ -11,7 +12,7 @@ use pillarforest::geom::ImagePlane;
 use pillarforest::groups::{Groups, groups};
 use pillarforest::mimic::{Energy, FaceWeight, NormalOptions, depths};
 use pillarforest::relief::{Relief, relief};
-use pillarforest::steps::{Prefer, StepLimits, StepOptions, UNSEEN_RAD, torn};
+use pillarforest::steps::{UNSEEN_RAD, torn};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
 
@@ -239,21 +240,10 @@ fn tears_open_as_late_as_steps_say() {
     let mut wide = pillar(DVec2::ZERO, 15.0, 64, Datum::AxisPlane);
     wide.layer = setting.supports[0].layer;
     setting.supports = vec![wide];
-    let steps = StepOptions {
-        limits: StepLimits {
-            least_mm: 0.1,
-            highest_mm: None,
-            tolerance_mm: None,
-        },
-        most: None,
-        price: 30.0,
-        narrowest_mm: 0.4,
-        prefer: Prefer::Tolerance,
-    };
     let (target, map) = setting.seen();
     let field = SupportField::new(&setting.supports);
     let found = groups("test", &map, &target, &field).expect("groups");
-    let torn = torn(&steps, NORMAL, &target, &map, &field, &found).expect("a torn surface");
+    let torn = torn(&STEPS, NORMAL, &target, &map, &field, &found).expect("a torn surface");
     let relief = relief(&torn.map, &torn.target, &field, &torn.groups, &torn.depths);
     let view = view("ball", EYE, setting.model.clone(), ORANGE);
     let found = tolerance(&view, &map, &target, &relief, &setting.supports);

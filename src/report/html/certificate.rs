@@ -1,9 +1,10 @@
 //! One view's certificate in words: what was measured, whether it holds, and what it means to somebody who looks or prints.
 
-use super::text::{count, escaped, mark, measure, measure_or, percent, place, table_if_any, tiny};
+use super::text::{count, mark, measure, measure_or, percent, place, table_if_any, tiny};
 use crate::certify::conflicts::Trouble;
 use crate::certify::coverage::{Cause, Gap};
 use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Way, WorstCut};
+use crate::formats::markup::escaped;
 use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL};
 use crate::steps::UNSEEN_RAD;
 use std::fmt::Write as _;

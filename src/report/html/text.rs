@@ -1,27 +1,10 @@
 //! Small pieces of the page: escaped text, figures with units, tables, pictures in the text itself.
 
+use crate::formats::markup::escaped;
 use std::fmt::Write as _;
 
 /// Between a figure and its unit: narrow, and no line breaks there.
 const THIN: char = '\u{202F}';
-
-/// Text that can stand between tags and in attributes. Characters HTML does not know are left out.
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            '\n' | '\t' => out.push(' '),
-            c if c.is_control() => {}
-            c => out.push(c),
-        }
-    }
-    out
-}
 
 /// A figure as people read it, with its exact value beside it for programs. A dash if it is not finite.
 fn figure(exact: f64, shown: &str) -> String {

@@ -2,9 +2,8 @@
 
 use super::ViewExhibit;
 use super::certificate::certificate;
-use super::text::{
-    count, escaped, measure, measure_or, percent, picture, place, table, table_if_any, tiny,
-};
+use super::text::{count, measure, measure_or, percent, picture, place, table, table_if_any, tiny};
+use crate::formats::markup::escaped;
 use crate::render::{HEAT, SCALE_END_DEG, ViewPictures};
 use crate::report::{ProgramReport, ViewReport};
 use crate::steps::StepSummary;
