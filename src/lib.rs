@@ -76,6 +76,8 @@ pub mod carve;
 
 pub mod split;
 
+pub mod planner;
+
 pub mod formats;
 
 pub mod diagram;

@@ -1,0 +1,330 @@
+//! A view as the planner needs it: where its models stand in plan, how high, and what they look like from its eye and from
+//! eyes beside it.
+//!
+//! Directions in plan are *bearings*: radians from the direction in which the eye looks, counter-clockwise from above.
+//! Slopes are heights over horizontal distances.
+
+use super::brief::Shape;
+use crate::bvh::Bvh;
+use crate::mesh::TriMesh;
+use crate::view::View;
+use glam::{DMat3, DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Columns in which the heights of a view's models are kept.
+const COLUMNS: usize = 240;
+/// Samples of a portrait: half a degree of a model that fills 30 degrees is a quarter of a millimetre on it.
+const PORTRAIT: [usize; 2] = [160, 160];
+/// Room that rays keep from the ends of pillars, millimetres.
+const END_ROOM_MM: f64 = 0.3;
+
+/// What one eye sees of its models, by bearing and slope.
+#[derive(Clone, Debug)]
+pub struct Portrait {
+    /// First bearing and slope, and their steps.
+    from: DVec2,
+    step: DVec2,
+    /// Columns by rising bearing, each by rising slope: normals, zero where no model is.
+    normals: Vec<Vec3>,
+}
+
+impl Portrait {
+    pub fn column(&self, bearing: f64) -> Option<usize> {
+        let column = (bearing - self.from.x) / self.step.x;
+        (column >= 0.0 && column < PORTRAIT[0] as f64).then_some(column as usize)
+    }
+
+    /// Unit normal of what is seen there; `None` beside the models.
+    pub fn normal(&self, column: usize, slope: f64) -> Option<Vec3> {
+        let row = (slope - self.from.y) / self.step.y;
+        if !(row >= 0.0 && row < PORTRAIT[1] as f64) {
+            return None;
+        }
+        let normal = self.normals[column * PORTRAIT[1] + row as usize];
+        (normal != Vec3::ZERO).then_some(normal)
+    }
+}
+
+/// What an eye elsewhere would see of the models: columns of rays, each in one vertical plane.
+#[derive(Clone, Debug)]
+pub struct Outlook {
+    pub eye: DVec3,
+    /// Turned from the view's own eye by this about the models' middle, degrees.
+    pub angle_deg: f64,
+    pub columns: Vec<OutlookColumn>,
+}
+
+#[derive(Clone, Debug)]
+pub struct OutlookColumn {
+    /// Unit.
+    pub way: DVec2,
+    /// Slope and unit normal of every ray that meets the models.
+    pub rays: Vec<(f64, Vec3)>,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    pub eye: DVec3,
+    /// The eye in plan, and the unit direction in which it looks.
+    pub o: DVec2,
+    pub ahead: DVec2,
+    /// Disjoint intervals of bearings at which models stand, rising.
+    pub spans: Vec<[f64; 2]>,
+    /// Smallest and largest slope in each of [`COLUMNS`] columns between the first and the last bearing.
+    slopes: Vec<[f64; 2]>,
+    pub portrait: Portrait,
+    /// Middle of the models' box.
+    pub middle: DVec3,
+    /// Width of all models square to the view, millimetres.
+    pub width: f64,
+}
+
+impl Subject {
+    /// Prepares a view.
+    pub fn new(view: &View) -> Self {
+        let target = view.target();
+        let o = view.eye.truncate();
+        let ahead = (view.look_at.truncate() - o).normalize_or(DVec2::X);
+        let mut subject = Self {
+            eye: view.eye,
+            o,
+            ahead,
+            spans: Vec::new(),
+            slopes: vec![[f64::INFINITY, f64::NEG_INFINITY]; COLUMNS],
+            portrait: Portrait {
+                from: DVec2::ZERO,
+                step: DVec2::ONE,
+                normals: Vec::new(),
+            },
+            middle: target
+                .bounds()
+                .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0),
+            width: 0.0,
+        };
+        subject.spans = subject.spans_of(view);
+        let across = ahead.perp();
+        let along = target.vertices.iter().map(|v| v.truncate().dot(across));
+        let (lo, hi) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+            (l.min(x), h.max(x))
+        });
+        subject.width = (hi - lo).max(0.0);
+        subject.fill_slopes(&target);
+        subject.portrait = subject.portrait_of(&target, &Bvh::new(&target));
+        subject
+    }
+
+    /// First and last bearing of all models.
+    pub fn range(&self) -> [f64; 2] {
+        match (self.spans.first(), self.spans.last()) {
+            (Some(first), Some(last)) => [first[0], last[1]],
+            _ => [0.0, 0.0],
+        }
+    }
+
+    pub fn bearing(&self, p: DVec2) -> f64 {
+        self.ahead.angle_to(p - self.o)
+    }
+
+    pub fn way(&self, bearing: f64) -> DVec2 {
+        DVec2::from_angle(bearing).rotate(self.ahead)
+    }
+
+    pub fn point(&self, bearing: f64, distance: f64) -> DVec2 {
+        self.o + distance * self.way(bearing)
+    }
+
+    /// By how much the rays between two bearings miss a pillar of this height at horizontal distances `near..far`, above or
+    /// below, millimetres; 0 if they all meet it.
+    pub fn beyond_ends(&self, from: f64, to: f64, near: f64, far: f64, shape: &Shape) -> f64 {
+        let top = shape.heights[1] - END_ROOM_MM;
+        self.columns(from, to).fold(0.0, |worst: f64, [low, high]| {
+            let highest = self.eye.z + (high * near).max(high * far);
+            let lowest = self.eye.z + (low * near).min(low * far);
+            worst.max(highest - top).max(END_ROOM_MM - lowest)
+        })
+    }
+
+    /// Height of the lowest pillar at horizontal distances `near..far` that all rays between two bearings meet.
+    pub fn height_needed(&self, from: f64, to: f64, near: f64, far: f64) -> f64 {
+        self.columns(from, to).fold(0.0, |most: f64, [_, high]| {
+            most.max(self.eye.z + (high * near).max(high * far) + END_ROOM_MM)
+        })
+    }
+
+    /// Slopes of the columns between two bearings.
+    fn columns(&self, from: f64, to: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let [a, b] = self.range();
+        let column = |bearing: f64| (bearing - a) / (b - a) * COLUMNS as f64;
+        let first = column(from).floor().max(0.0) as usize;
+        let last = (column(to).ceil().max(0.0) as usize).min(COLUMNS);
+        let of_columns = self.slopes.get(first.min(last)..last).unwrap_or(&[]);
+        of_columns.iter().copied().filter(|s| s[0] <= s[1])
+    }
+
+    fn spans_of(&self, view: &View) -> Vec<[f64; 2]> {
+        let mut spans: Vec<[f64; 2]> = Vec::new();
+        for model in &view.models {
+            let bearings = model
+                .mesh
+                .vertices
+                .iter()
+                .map(|v| self.bearing(v.truncate()));
+            let (lo, hi) = bearings
+                .filter(|b| b.is_finite())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), b| {
+                    (l.min(b), h.max(b))
+                });
+            if lo < hi {
+                spans.push([lo, hi]);
+            }
+        }
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut merged: Vec<[f64; 2]> = Vec::new();
+        for span in spans {
+            match merged.last_mut() {
+                Some(last) if span[0] <= last[1] => last[1] = last[1].max(span[1]),
+                _ => merged.push(span),
+            }
+        }
+        merged
+    }
+
+    /// Extremes over each column lie at vertices or where edges cross the borders of columns.
+    fn fill_slopes(&mut self, target: &TriMesh) {
+        let [a, b] = self.range();
+        let width = (b - a) / COLUMNS as f64;
+        if width <= 0.0 {
+            return;
+        }
+        let polar = |v: &DVec3| {
+            let level = v.truncate() - self.o;
+            (
+                self.ahead.angle_to(level),
+                (v.z - self.eye.z) / level.length(),
+            )
+        };
+        let points: Vec<(f64, f64)> = target.vertices.iter().map(polar).collect();
+        let mut note = |column: usize, slope: f64| {
+            let range = &mut self.slopes[column.min(COLUMNS - 1)];
+            *range = [range[0].min(slope), range[1].max(slope)];
+        };
+        let column = |bearing: f64| (((bearing - a) / width).max(0.0) as usize).min(COLUMNS - 1);
+        for (bearing, slope) in &points {
+            note(column(*bearing), *slope);
+        }
+        for face in &target.faces {
+            for k in 0..3 {
+                let (i, j) = (face[k] as usize, face[(k + 1) % 3] as usize);
+                let (from, to) = (column(points[i].0), column(points[j].0));
+                for border in from.min(to) + 1..=from.max(to) {
+                    let way = DVec2::from_angle(a + width * border as f64).rotate(self.ahead);
+                    let (p, q) = (target.vertices[i], target.vertices[j]);
+                    let (sp, sq) = (
+                        way.perp_dot(p.truncate() - self.o),
+                        way.perp_dot(q.truncate() - self.o),
+                    );
+                    let t = sp / (sp - sq);
+                    if !(0.0..=1.0).contains(&t) {
+                        continue;
+                    }
+                    let at = p.lerp(q, t);
+                    let slope = (at.z - self.eye.z) / (at.truncate() - self.o).length();
+                    note(border - 1, slope);
+                    note(border, slope);
+                }
+            }
+        }
+    }
+
+    fn slope_range(&self) -> [f64; 2] {
+        let all = self.slopes.iter().filter(|s| s[0] <= s[1]);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |r, s| {
+            [r[0].min(s[0]), r[1].max(s[1])]
+        })
+    }
+
+    fn portrait_of(&self, target: &TriMesh, bvh: &Bvh) -> Portrait {
+        let ([a, b], [low, high]) = (self.range(), self.slope_range());
+        let from = DVec2::new(a, low);
+        let size = DVec2::new(PORTRAIT[0] as f64, PORTRAIT[1] as f64);
+        let step = (DVec2::new(b, high) - from) / size;
+        let cells: Vec<usize> = (0..PORTRAIT[0] * PORTRAIT[1]).collect();
+        let normals = cells
+            .par_iter()
+            .map(|k| {
+                let place = DVec2::new((k / PORTRAIT[1]) as f64, (k % PORTRAIT[1]) as f64) + 0.5;
+                let at = from + step * place;
+                let hit = bvh.first_hit(self.eye, self.way(at.x).extend(at.y));
+                hit.map_or(Vec3::ZERO, |h| target.normal(h.face).as_vec3())
+            })
+            .collect();
+        Portrait {
+            from,
+            step,
+            normals,
+        }
+    }
+
+    /// What eyes turned by `angle_deg` to both sides would see of the models, with `side x side` rays.
+    pub fn outlooks(&self, view: &View, angle_deg: f64, side: [usize; 2]) -> Vec<Outlook> {
+        let target = view.target();
+        let bvh = Bvh::new(&target);
+        let sides = if angle_deg == 0.0 {
+            &[1.0][..]
+        } else {
+            &[-1.0, 1.0][..]
+        };
+        let outlook = |sign: &f64| {
+            let turn = DMat3::from_rotation_z((sign * angle_deg).to_radians());
+            let eye = self.middle + turn * (self.eye - self.middle);
+            outlook(eye, self.middle, angle_deg, side, &target, &bvh)
+        };
+        sides.iter().map(outlook).collect()
+    }
+}
+
+fn outlook(
+    eye: DVec3,
+    middle: DVec3,
+    angle_deg: f64,
+    [columns, rows]: [usize; 2],
+    target: &TriMesh,
+    bvh: &Bvh,
+) -> Outlook {
+    let o = eye.truncate();
+    let ahead = (middle.truncate() - o).normalize_or(DVec2::X);
+    let polar = |v: &DVec3| {
+        let level = v.truncate() - o;
+        DVec2::new(ahead.angle_to(level), (v.z - eye.z) / level.length())
+    };
+    let far = DVec2::splat(f64::INFINITY);
+    let (lo, hi) = target
+        .vertices
+        .iter()
+        .map(polar)
+        .filter(|p| p.x.abs() < PI / 2.0)
+        .fold((far, -far), |(l, h), p| (l.min(p), h.max(p)));
+    let step = (hi - lo) / DVec2::new(columns as f64, rows as f64);
+    let column = |c: usize| {
+        let way = DVec2::from_angle(lo.x + step.x * (c as f64 + 0.5)).rotate(ahead);
+        // Staggered by the golden section, so that rays do not stand in rows.
+        let stagger = (c as f64 * 0.618_034).fract();
+        let slopes = (0..rows).map(|r| lo.y + step.y * (r as f64 + stagger));
+        let rays = slopes.filter_map(|slope| {
+            let hit = bvh.first_hit(eye, way.extend(slope))?;
+            Some((slope, target.normal(hit.face).as_vec3()))
+        });
+        OutlookColumn {
+            way,
+            rays: rays.collect(),
+        }
+    };
+    let numbers: Vec<usize> = (0..columns).collect();
+    Outlook {
+        eye,
+        angle_deg,
+        columns: numbers.par_iter().map(|c| column(*c)).collect(),
+    }
+}
