@@ -28,6 +28,7 @@
 //! place sees less than full likeness too, as base and bare pillars are in its frame; what counts is what is left of that.
 
 use crate::bvh::Bvh;
+use crate::geom::half_angle;
 use crate::mesh::TriMesh;
 use crate::render::{angle_deg, framing};
 use crate::view::View;
@@ -109,15 +110,6 @@ pub fn camouflage(view: &View, forest: &TriMesh, forest_bvh: &Bvh, floor: f64) -
         worst_likeness: worst.map(|w| w.1),
         curve,
     }
-}
-
-/// Where a curve of (angle, value), by rising angle, first falls to half of its first value, straight between its points; none if
-/// it never does or begins at nothing.
-pub fn half_angle(curve: &[(f64, f64)]) -> Option<f64> {
-    let half = curve.first()?.1 / 2.0;
-    let pair = curve.windows(2).find(|w| w[1].1 <= half)?;
-    let [(a, above), (b, below)] = [pair[0], pair[1]];
-    (half > 0.0).then(|| a + (b - a) * (above - half) / (above - below))
 }
 
 /// The point of largest value beyond an angle; the first of equals.

@@ -32,3 +32,12 @@ pub fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
 pub fn parallax(a: f64, b: f64) -> f64 {
     1.0 / a - 1.0 / b
 }
+
+/// Where a curve of (angle, value), by rising angle, first falls to half of its first value, straight between its points; none if
+/// it never does or begins at nothing.
+pub fn half_angle(curve: &[(f64, f64)]) -> Option<f64> {
+    let half = curve.first()?.1 / 2.0;
+    let pair = curve.windows(2).find(|w| w[1].1 <= half)?;
+    let [(a, above), (b, below)] = [pair[0], pair[1]];
+    (half > 0.0).then(|| a + (b - a) * (above - half) / (above - below))
+}

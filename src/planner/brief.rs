@@ -1,6 +1,6 @@
 //! What is wanted of a layout: region, pillars allowed, what matters.
 
-use crate::geom::{contains, to_segment};
+use crate::geom::{Circle, contains, inscribed, to_segment};
 use crate::support::Layer;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 
@@ -30,6 +30,8 @@ pub struct Pillar {
     pub owner: Option<usize>,
     /// Stays where it is.
     pub fixed: bool,
+    /// Its index among the brief's given pillars, if it is one of them.
+    pub given: Option<usize>,
 }
 
 /// What matters, as weights; see [`Score`](super::Score).
@@ -90,17 +92,126 @@ impl Adjustment {
     }
 }
 
+/// How much is kept in hand beyond what a build cannot do without, millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Care {
+    /// By how much the farther pillar reaches behind the nearer one at a cut, and beyond a model's outline.
+    pub overlap: f64,
+    /// Narrowest strip of relief.
+    pub narrowest: f64,
+    /// Room between a relief, wherever it lies in its layer, and solids other than its pillar.
+    pub reliefs: f64,
+}
+
+impl Care {
+    /// For layouts found: polygons inside their circles and rounding to printable coordinates take a hundredth of the overlap, and
+    /// strips are as wide as three lines of a 0.4 mm nozzle.
+    pub const FOUND: Self = Self {
+        overlap: 0.3,
+        narrowest: 1.2,
+        reliefs: 0.5,
+    };
+    /// For layouts made by hand: what a build can just do with. Reliefs of neighbours may meet in a cut.
+    pub const GIVEN: Self = Self {
+        overlap: 0.02,
+        narrowest: 0.4,
+        reliefs: 0.0,
+    };
+}
+
+/// Ground on which pillars may stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    outline: Vec<DVec2>,
+    /// A circle inside, as large as can be: most places are found to lie inside by it alone.
+    inner: Circle,
+}
+
+/// To this many millimetres the inner circle is as large as can be.
+const INNER_MM: f64 = 1.0;
+
+impl Region {
+    /// The region inside a simple polygon, counter-clockwise.
+    pub fn new(outline: Vec<DVec2>) -> Self {
+        let n = outline.len();
+        let sides: Vec<[DVec2; 2]> = (0..n).map(|i| [outline[i], outline[(i + 1) % n]]).collect();
+        let inner = inscribed(&sides, INNER_MM, f64::INFINITY).unwrap_or(Circle {
+            centre: DVec2::ZERO,
+            radius: 0.0,
+        });
+        Self { outline, inner }
+    }
+
+    pub fn outline(&self) -> &[DVec2] {
+        &self.outline
+    }
+
+    pub fn middle(&self) -> DVec2 {
+        self.inner.centre
+    }
+
+    /// Lower and upper corner of its box.
+    pub fn bounds(&self) -> (DVec2, DVec2) {
+        let far = DVec2::splat(f64::INFINITY);
+        self.outline
+            .iter()
+            .fold((far, -far), |(l, h), p| (l.min(*p), h.max(*p)))
+    }
+
+    pub fn contains(&self, p: DVec2) -> bool {
+        self.is_deep(p, 0.0) || contains(&self.outline, p)
+    }
+
+    fn is_deep(&self, at: DVec2, reach: f64) -> bool {
+        let room = self.inner.radius - reach;
+        room >= 0.0 && at.distance_squared(self.inner.centre) <= room * room
+    }
+
+    /// Distance of a point from the outline, millimetres.
+    pub fn to_outline(&self, p: DVec2) -> f64 {
+        let n = self.outline.len();
+        let sides = (0..n).map(|i| to_segment(p, self.outline[i], self.outline[(i + 1) % n]));
+        sides.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far the circle of radius `reach` around `at` sticks out, millimetres; 0 if it does not.
+    pub fn outside(&self, at: DVec2, reach: f64) -> f64 {
+        if self.is_deep(at, reach) {
+            return 0.0;
+        }
+        let distance = self.to_outline(at);
+        let inside = if contains(&self.outline, at) {
+            distance
+        } else {
+            -distance
+        };
+        (reach - inside).max(0.0)
+    }
+
+    /// The region scaled about its middle.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let middle = self.middle();
+        Self::new(
+            self.outline
+                .iter()
+                .map(|p| middle + factor * (*p - middle))
+                .collect(),
+        )
+    }
+}
+
 /// What a layout is to be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brief {
-    /// Simple polygon, counter-clockwise: bodies of pillars stay inside.
-    pub region: Vec<DVec2>,
+    /// Bodies of pillars stay inside.
+    pub region: Region,
     /// Allowed shapes first, then those of fixed pillars only.
     pub shapes: Vec<Shape>,
     /// How many of `shapes` new pillars may have.
     pub allowed: usize,
-    /// Room between any two solids, millimetres.
+    /// Room between any two pillars, millimetres.
     pub gap: f64,
+    pub care: Care,
     /// Fewest and most pillars, fixed ones included.
     pub count: [usize; 2],
     /// Pillars to keep (`fixed`), or to begin with when a layout is mended.
@@ -116,19 +227,4 @@ pub struct Brief {
     /// Least eye tolerance of every view, millimetres.
     pub tolerance_mm: Vec<f64>,
     pub freedom: Freedom,
-}
-
-impl Brief {
-    /// How far the circle of radius `reach` around `at` sticks out of the region, millimetres; 0 if it does not.
-    pub fn outside(&self, at: DVec2, reach: f64) -> f64 {
-        let n = self.region.len();
-        let edges = (0..n).map(|i| to_segment(at, self.region[i], self.region[(i + 1) % n]));
-        let distance = edges.fold(f64::INFINITY, f64::min);
-        let inside = if contains(&self.region, at) {
-            distance
-        } else {
-            -distance
-        };
-        (reach - inside).max(0.0)
-    }
 }

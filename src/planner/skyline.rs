@@ -1,9 +1,10 @@
 //! Which pillar an eye meets first, in plan and exactly, over the bearings of its models.
 //!
-//! Pillars count as endlessly high; bodies do not overlap, so between neighbouring tangents the nearest one does not change.
+//! A pillar counts as endlessly high unless all rays to the models pass above it. Bodies do not overlap, so between neighbouring
+//! tangents the nearest one does not change.
 
 use super::brief::{Pillar, Shape};
-use super::subject::Subject;
+use super::subject::{Subject, turn};
 use glam::DVec2;
 
 /// A pillar as one eye sees it.
@@ -15,34 +16,31 @@ pub struct Shadow {
     pub to: f64,
     /// Distance of the axis, millimetres.
     pub distance: f64,
+    /// All rays to the models pass above it.
+    pub below: bool,
 }
 
 impl Shadow {
     /// The shadow of a pillar; all around if the eye stands within its reach.
     pub fn new(subject: &Subject, pillar: &Pillar, shape: &Shape) -> Self {
         let offset = pillar.at - subject.o;
-        let (middle, distance) = (subject.ahead.angle_to(offset), offset.length());
-        if distance <= shape.reach {
-            let (from, to) = (f64::NEG_INFINITY, f64::INFINITY);
-            return Self {
-                middle,
-                from,
-                to,
-                distance,
-            };
-        }
-        let [from, to] = if shape.round {
+        let (middle, distance) = (turn(subject.ahead, offset), offset.length());
+        let [left, right] = if distance <= shape.reach {
+            [f64::NEG_INFINITY, f64::INFINITY]
+        } else if shape.round {
             let half = (shape.reach / distance).asin();
             [-half, half]
         } else {
-            let bearings = shape.profile.iter().map(|p| offset.angle_to(offset + *p));
+            let bearings = shape.profile.iter().map(|p| turn(offset, offset + *p));
             bearings.fold([0.0, 0.0], |r: [f64; 2], b| [r[0].min(b), r[1].max(b)])
         };
+        let (from, to) = (middle + left, middle + right);
         Self {
             middle,
-            from: middle + from,
-            to: middle + to,
+            from,
+            to,
             distance,
+            below: subject.passes_over(from, to, distance + shape.reach, shape.heights[1]),
         }
     }
 
@@ -59,17 +57,18 @@ pub struct Run {
     pub pillar: Option<usize>,
 }
 
-/// Distance at which the ray from `eye` in the unit direction `way` meets a pillar's body; `None` if it misses.
-pub fn entry(eye: DVec2, way: DVec2, at: DVec2, shape: &Shape) -> Option<f64> {
+/// Distance at which the ray from `eye` in the unit direction `way` meets a pillar's body, and the body's outward normal there;
+/// `None` if it misses.
+pub fn entry(eye: DVec2, way: DVec2, at: DVec2, shape: &Shape) -> Option<(f64, DVec2)> {
     let offset = at - eye;
     if shape.round {
         let off = way.perp_dot(offset);
         let under = shape.reach * shape.reach - off * off;
         let t = way.dot(offset) - under.max(0.0).sqrt();
-        return (under >= 0.0 && t > 0.0).then_some(t);
+        return (under >= 0.0 && t > 0.0).then(|| (t, (t * way - offset) / shape.reach));
     }
     let n = shape.profile.len();
-    let mut best: Option<f64> = None;
+    let mut best: Option<(f64, DVec2)> = None;
     for i in 0..n {
         let (p, q) = (
             offset + shape.profile[i],
@@ -80,11 +79,11 @@ pub fn entry(eye: DVec2, way: DVec2, at: DVec2, shape: &Shape) -> Option<f64> {
             continue;
         }
         let t = way.dot(p + (q - p) * (sp / (sp - sq)));
-        if t > 0.0 && best.is_none_or(|b| t < b) {
-            best = Some(t);
+        if t > 0.0 && best.is_none_or(|b| t < b.0) {
+            best = Some((t, -(q - p).perp()));
         }
     }
-    best
+    best.map(|(t, side)| (t, side.normalize_or_zero()))
 }
 
 /// The runs of one view, rising; those of one span join without gaps.
@@ -97,7 +96,7 @@ pub fn runs(
     let mut runs: Vec<Run> = Vec::new();
     for [a, b] in &subject.spans {
         let near: Vec<usize> = (0..shadows.len())
-            .filter(|i| shadows[*i].from < *b && shadows[*i].to > *a)
+            .filter(|i| shadows[*i].from < *b && shadows[*i].to > *a && !shadows[*i].below)
             .collect();
         let mut cuts: Vec<f64> = vec![*a, *b];
         let ends = near.iter().flat_map(|i| [shadows[*i].from, shadows[*i].to]);
@@ -110,7 +109,7 @@ pub fn runs(
             let mut first: (f64, Option<usize>) = (f64::INFINITY, None);
             for i in near.iter().filter(|i| shadows[**i].covers(middle)) {
                 let t = entry(subject.o, way, pillars[*i].at, &shapes[pillars[*i].shape]);
-                if let Some(t) = t.filter(|t| *t < first.0) {
+                if let Some((t, _)) = t.filter(|t| t.0 < first.0) {
                     first = (t, Some(*i));
                 }
             }

@@ -8,7 +8,7 @@ use super::brief::Shape;
 use crate::bvh::Bvh;
 use crate::mesh::TriMesh;
 use crate::view::View;
-use glam::{DMat3, DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -16,8 +16,15 @@ use std::f64::consts::PI;
 const COLUMNS: usize = 240;
 /// Samples of a portrait: half a degree of a model that fills 30 degrees is a quarter of a millimetre on it.
 const PORTRAIT: [usize; 2] = [160, 160];
+/// Part of a whole by which following columns of rays are staggered.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Room that rays keep from the ends of pillars, millimetres.
 const END_ROOM_MM: f64 = 0.3;
+
+/// The angle from one direction to another, radians, counter-clockwise, between -pi and pi.
+pub fn turn(from: DVec2, to: DVec2) -> f64 {
+    from.perp_dot(to).atan2(from.dot(to))
+}
 
 /// What one eye sees of its models, by bearing and slope.
 #[derive(Clone, Debug)]
@@ -50,8 +57,6 @@ impl Portrait {
 #[derive(Clone, Debug)]
 pub struct Outlook {
     pub eye: DVec3,
-    /// Turned from the view's own eye by this about the models' middle, degrees.
-    pub angle_deg: f64,
     pub columns: Vec<OutlookColumn>,
 }
 
@@ -82,9 +87,8 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// Prepares a view.
-    pub fn new(view: &View) -> Self {
-        let target = view.target();
+    /// Prepares a view's target, which are its models in place: all but the portrait.
+    pub fn in_plan(view: &View, target: &TriMesh) -> Self {
         let o = view.eye.truncate();
         let ahead = (view.look_at.truncate() - o).normalize_or(DVec2::X);
         let mut subject = Self {
@@ -110,8 +114,14 @@ impl Subject {
             (l.min(x), h.max(x))
         });
         subject.width = (hi - lo).max(0.0);
-        subject.fill_slopes(&target);
-        subject.portrait = subject.portrait_of(&target, &Bvh::new(&target));
+        subject.fill_slopes(target);
+        subject
+    }
+
+    /// The same with the portrait; `bvh` is the target's.
+    pub fn new(view: &View, target: &TriMesh, bvh: &Bvh) -> Self {
+        let mut subject = Self::in_plan(view, target);
+        subject.portrait = subject.portrait_of(target, bvh);
         subject
     }
 
@@ -124,7 +134,7 @@ impl Subject {
     }
 
     pub fn bearing(&self, p: DVec2) -> f64 {
-        self.ahead.angle_to(p - self.o)
+        turn(self.ahead, p - self.o)
     }
 
     pub fn way(&self, bearing: f64) -> DVec2 {
@@ -144,6 +154,15 @@ impl Subject {
             let lowest = self.eye.z + (low * near).min(low * far);
             worst.max(highest - top).max(END_ROOM_MM - lowest)
         })
+    }
+
+    /// Whether all rays between two bearings pass above a pillar of this height at horizontal distances up to `far`.
+    pub fn passes_over(&self, from: f64, to: f64, far: f64, top: f64) -> bool {
+        // Mostly the eye is no higher than the pillars.
+        self.eye.z > top
+            && self
+                .columns(from, to)
+                .all(|[low, _]| self.eye.z + low * far > top + END_ROOM_MM)
     }
 
     /// Height of the lowest pillar at horizontal distances `near..far` that all rays between two bearings meet.
@@ -267,37 +286,55 @@ impl Subject {
         }
     }
 
-    /// What eyes turned by `angle_deg` to both sides would see of the models, with `side x side` rays.
-    pub fn outlooks(&self, view: &View, angle_deg: f64, side: [usize; 2]) -> Vec<Outlook> {
-        let target = view.target();
-        let bvh = Bvh::new(&target);
+    /// What eyes turned by `angle_deg` to both sides, and raised by `raised_deg`, about the models' middle would see of them.
+    pub fn outlooks(
+        &self,
+        target: &TriMesh,
+        bvh: &Bvh,
+        [angle_deg, raised_deg]: [f64; 2],
+        rays: Rays,
+    ) -> Vec<Outlook> {
         let sides = if angle_deg == 0.0 {
             &[1.0][..]
         } else {
             &[-1.0, 1.0][..]
         };
+        let offset = self.eye - self.middle;
+        let level = offset.truncate();
         let outlook = |sign: &f64| {
-            let turn = DMat3::from_rotation_z((sign * angle_deg).to_radians());
-            let eye = self.middle + turn * (self.eye - self.middle);
-            outlook(eye, self.middle, angle_deg, side, &target, &bvh)
+            let way = DVec2::from_angle((sign * angle_deg).to_radians())
+                .rotate(level.normalize_or(DVec2::X));
+            let elevation = offset.z.atan2(level.length()) + raised_deg.to_radians();
+            let eye =
+                self.middle + offset.length() * (elevation.cos() * way).extend(elevation.sin());
+            Outlook {
+                eye,
+                columns: columns(eye, self.middle, rays, target, bvh),
+            }
         };
         sides.iter().map(outlook).collect()
     }
 }
 
-fn outlook(
+/// How many columns an outlook has, and rays in each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rays {
+    pub columns: usize,
+    pub rows: usize,
+}
+
+fn columns(
     eye: DVec3,
     middle: DVec3,
-    angle_deg: f64,
-    [columns, rows]: [usize; 2],
+    rays: Rays,
     target: &TriMesh,
     bvh: &Bvh,
-) -> Outlook {
+) -> Vec<OutlookColumn> {
     let o = eye.truncate();
     let ahead = (middle.truncate() - o).normalize_or(DVec2::X);
     let polar = |v: &DVec3| {
         let level = v.truncate() - o;
-        DVec2::new(ahead.angle_to(level), (v.z - eye.z) / level.length())
+        DVec2::new(turn(ahead, level), (v.z - eye.z) / level.length())
     };
     let far = DVec2::splat(f64::INFINITY);
     let (lo, hi) = target
@@ -306,25 +343,21 @@ fn outlook(
         .map(polar)
         .filter(|p| p.x.abs() < PI / 2.0)
         .fold((far, -far), |(l, h), p| (l.min(p), h.max(p)));
-    let step = (hi - lo) / DVec2::new(columns as f64, rows as f64);
+    let step = (hi - lo) / DVec2::new(rays.columns as f64, rays.rows as f64);
     let column = |c: usize| {
         let way = DVec2::from_angle(lo.x + step.x * (c as f64 + 0.5)).rotate(ahead);
         // Staggered by the golden section, so that rays do not stand in rows.
-        let stagger = (c as f64 * 0.618_034).fract();
-        let slopes = (0..rows).map(|r| lo.y + step.y * (r as f64 + stagger));
-        let rays = slopes.filter_map(|slope| {
+        let stagger = (c as f64 * GOLDEN).fract();
+        let slopes = (0..rays.rows).map(|r| lo.y + step.y * (r as f64 + stagger));
+        let met = slopes.filter_map(|slope| {
             let hit = bvh.first_hit(eye, way.extend(slope))?;
             Some((slope, target.normal(hit.face).as_vec3()))
         });
         OutlookColumn {
             way,
-            rays: rays.collect(),
+            rays: met.collect(),
         }
     };
-    let numbers: Vec<usize> = (0..columns).collect();
-    Outlook {
-        eye,
-        angle_deg,
-        columns: numbers.par_iter().map(|c| column(*c)).collect(),
-    }
+    let numbers: Vec<usize> = (0..rays.columns).collect();
+    numbers.par_iter().map(|c| column(*c)).collect()
 }

@@ -4,12 +4,11 @@ use crate::scene::CUBE;
 use crate::shapes::{BLUE, MIDDLE, ORANGE, ball, bumpy, prism, ring, view};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::certify::camouflage::{
-    ANGLES_DEG, Camouflage, camouflage, half_angle, largest_beyond,
-};
+use pillarforest::certify::camouflage::{ANGLES_DEG, Camouflage, camouflage, largest_beyond};
 use pillarforest::compile::{Build, Goal, run};
 use pillarforest::diag::Diagnostic;
 use pillarforest::diagram::curves::{Curve, curves};
+use pillarforest::geom::half_angle;
 use pillarforest::mesh::TriMesh;
 use pillarforest::scene;
 use std::f64::consts::FRAC_PI_2;
