@@ -39,6 +39,7 @@ pub fn propose(
         .then(|| layout.survey.faults[rng.random_range(0..layout.survey.faults.len())]);
     let kind = match fault.map(|f| f.kind) {
         Some(Kind::Uncovered) => rng.random_range(60..94),
+        Some(Kind::Count) => rng.random_range(88..98),
         Some(_) => rng.random_range(0..88),
         None => rng.random_range(0..100),
     };
@@ -117,7 +118,7 @@ fn new_pillar(
         .and_then(|f| f.view)
         .unwrap_or_else(|| rng.random_range(0..layout.poses.len()));
     let subject = &problem.poses[view][layout.poses[view]].subject;
-    let [a, b] = match fault {
+    let [a, b] = match fault.filter(|f| f.kind == Kind::Uncovered) {
         Some(fault) => {
             let bearing = subject.bearing(fault.at);
             let reach = problem.brief.shapes[0].reach / subject.o.distance(fault.at);

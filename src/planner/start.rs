@@ -117,24 +117,21 @@ struct Row {
     stuck: Option<Stuck>,
 }
 
-/// The first row of [`LEADS_MM`] that is whole; or else the one that got farthest.
+/// Of the rows with [`LEADS_MM`] the whole one that stands nearest to its eye; or else the one that got farthest.
 fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Row {
-    let rows = LEADS_MM
-        .iter()
-        .map(|lead| row_from(subject, view, brief, given, *lead));
-    let mut best: Option<Row> = None;
-    for row in rows {
-        if row.stuck.is_none() {
-            return row;
+    let rows = LEADS_MM.iter().map(|lead| row_from(subject, view, brief, given, *lead));
+    let depth = |row: &Row| {
+        let distances = row.pillars.iter().map(|p| p.at.distance(subject.o));
+        match row.stuck {
+            None => (false, distances.fold(0.0, f64::max)),
+            Some(_) => (true, -(row.pillars.len() as f64)),
         }
-        if best
-            .as_ref()
-            .is_none_or(|b| row.pillars.len() > b.pillars.len())
-        {
-            best = Some(row);
-        }
-    }
-    best.unwrap_or_default()
+    };
+    rows.reduce(|best, row| {
+        let better = depth(&row).0.cmp(&depth(&best).0).then(depth(&row).1.total_cmp(&depth(&best).1));
+        if better.is_lt() { row } else { best }
+    })
+    .unwrap_or_default()
 }
 
 /// A row that begins `lead` millimetres before the models do.
