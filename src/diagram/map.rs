@@ -13,6 +13,8 @@ use glam::DVec2;
 
 /// Half the width of the eye symbol, layout units.
 const EYE: f64 = 4.0;
+/// Widest name beside an eye, as a share of the room for labels.
+const WIDEST_LABEL: f64 = 0.6;
 
 pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.rect(DVec2::ZERO, page.size(), Some(PAPER), None);
@@ -31,20 +33,15 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             .for_each(|run| constrained(drawing, page, facts, sight, run));
     }
     numbers(drawing, page, facts);
-    eyes(drawing, page, facts);
+    eyes(drawing, page, facts.views, facts.rooms);
 }
 
 fn heading(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let full = page.style(9.0, Face::Regular, TEXT, Anchor::Start);
-    // Long titles shrink to the page's width.
-    let fit = (186.0 * page.u / width(facts.title, full.size, full.face).max(1e-9)).min(1.0);
     drawing.text(
         page.at(12.0, 19.0),
         facts.title,
-        TextStyle {
-            size: full.size * fit,
-            ..full
-        },
+        full.fitting(facts.title, 186.0 * page.u),
     );
     let plural = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let line = format!(
@@ -74,24 +71,13 @@ fn base(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 }
 
 /// The range of one interval: from the eye, or from the range's end if the eye is drawn nearer than it is, to what it meets.
-fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: [u8; 3]) {
+pub fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: [u8; 3]) {
     let hits: Vec<(f64, f64)> = runs.iter().flat_map(|r| r.hits.iter().copied()).collect();
-    let reach = RANGE * page.radius;
-    let chord = |angle: f64| chord(sight.eye - page.centre, sight.direction(angle), reach);
-    let far = |&(angle, t): &(f64, f64)| {
-        chord(angle).map(|(_, exit)| page.place(sight.point(angle, t.min(exit))))
-    };
     let broken = page.stand(sight.eye).1;
-    let start = |entry: f64| if broken { entry.max(0.0) } else { 0.0 };
-    let near = |&(angle, _): &(f64, f64)| {
-        chord(angle).map(|(entry, _)| page.place(sight.point(angle, start(entry))))
-    };
-    let mut points: Vec<DVec2> = hits.iter().filter_map(far).collect();
-    points.extend(hits.iter().rev().filter_map(near));
-    let ink = Ink::new(colour);
-    drawing.polygon(&points, Some(ink.fade(0.26)), None);
+    let points = range(page, sight, &hits);
+    drawing.polygon(&points, Some(Ink::new(colour).fade(0.26)), None);
     for side in [hits.first(), hits.last()].into_iter().flatten() {
-        let Some((near, far)) = near(side).zip(far(side)) else {
+        let Some((near, far)) = stretch(page, sight, *side) else {
             continue;
         };
         drawing.polyline(
@@ -110,8 +96,26 @@ fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: 
     }
 }
 
+/// What lies before some hits of an eye, as a polygon on the page: what they hit first, then back along the eye's side.
+pub fn range(page: &Page, sight: &Sight, hits: &[(f64, f64)]) -> Vec<DVec2> {
+    let ends = |hit: &(f64, f64)| stretch(page, sight, *hit);
+    let far = hits.iter().filter_map(ends).map(|s| s.1);
+    let near = hits.iter().rev().filter_map(ends).map(|s| s.0);
+    far.chain(near).collect()
+}
+
+/// Where a ray begins on the page, and where it meets something or leaves the range.
+fn stretch(page: &Page, sight: &Sight, (angle, t): (f64, f64)) -> Option<(DVec2, DVec2)> {
+    let reach = RANGE * page.radius;
+    let (entry, exit) = chord(sight.eye - page.centre, sight.direction(angle), reach)?;
+    let broken = page.stand(sight.eye).1;
+    let start = if broken { entry.max(0.0) } else { 0.0 };
+    let at = |t: f64| page.place(sight.point(angle, t));
+    Some((at(start), at(t.min(exit))))
+}
+
 /// Distances at which a ray from `from` (relative to a circle's centre) enters and leaves the circle.
-fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
+pub fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
     let along = from.dot(direction);
     let root = (along * along - from.length_squared() + radius * radius).sqrt();
     (root.is_finite() && root - along > 0.0).then_some((-along - root, -along + root))
@@ -218,21 +222,17 @@ fn disc(support: &Support) -> Option<(DVec2, f64)> {
     ))
 }
 
-fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    let stands: Vec<(DVec2, bool)> = facts
-        .views
-        .iter()
-        .map(|v| page.stand(v.eye.truncate()))
-        .collect();
-    let ways: Vec<DVec2> = facts
-        .views
+/// All eyes with their names. `rooms` are how far they may move; empty if that is not known.
+pub fn eyes(drawing: &mut Drawing, page: &Page, views: &[View], rooms: &[Option<f64>]) {
+    let stands: Vec<(DVec2, bool)> = views.iter().map(|v| page.stand(v.eye.truncate())).collect();
+    let ways: Vec<DVec2> = views
         .iter()
         .zip(&stands)
         .map(|(v, s)| page.place(v.look_at.truncate()) - page.place(s.0))
         .collect();
     let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
     let mut taken: Vec<Block> = Vec::new();
-    let room = |k: usize| facts.rooms.get(k).copied().flatten();
+    let room = |k: usize| rooms.get(k).copied().flatten();
     for (k, ((stand, _), ahead)) in stands.iter().zip(&ways).enumerate() {
         let at = page.place(*stand);
         taken.push(Block::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
@@ -242,7 +242,7 @@ fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             DVec2::splat(1.2 * page.u) + 5.0 * page.u * ahead.abs(),
         ));
     }
-    let views = facts.views.iter().zip(&stands).zip(&ways);
+    let views = views.iter().zip(&stands).zip(&ways);
     for (k, ((view, (stand, far)), &ahead)) in views.enumerate() {
         let at = page.place(*stand);
         arrow(drawing, page, at, ahead, *far, view.colour);
@@ -265,7 +265,14 @@ pub fn room_of_eye(drawing: &mut Drawing, page: &Page, at: DVec2, room: f64, col
 }
 
 /// From the eye towards what it looks at; with a break if the eye is further away than drawn.
-fn arrow(drawing: &mut Drawing, page: &Page, at: DVec2, ahead: DVec2, far: bool, colour: [u8; 3]) {
+pub fn arrow(
+    drawing: &mut Drawing,
+    page: &Page,
+    at: DVec2,
+    ahead: DVec2,
+    far: bool,
+    colour: [u8; 3],
+) {
     let u = page.u;
     let side = ahead.perp();
     let pen = Pen::new(deep(colour, 0.25), 0.5 * u);
@@ -331,7 +338,12 @@ fn label(
     taken: &mut Vec<Block>,
 ) {
     let u = page.u;
+    let room = Block {
+        lo: page.room[0],
+        hi: page.room[1],
+    };
     let name = page.style(4.4, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
+    let most = WIDEST_LABEL * (room.hi.x - room.lo.x);
     let note = page.style(3.1, Face::Light, QUIET, Anchor::Middle);
     let distance = length(view.eye.distance(view.look_at));
     let line = if far {
@@ -340,7 +352,10 @@ fn label(
         distance
     };
     let half = DVec2::new(
-        width(&view.name, name.size, name.face).max(width(&line, note.size, note.face)) / 2.0,
+        width(&view.name, name.size, name.face)
+            .min(most)
+            .max(width(&line, note.size, note.face))
+            / 2.0,
         4.3 * u,
     );
     let offset = |d: DVec2| d * (half + DVec2::new(clear + 0.8, clear - 0.8) * u);
@@ -356,10 +371,6 @@ fn label(
         vertical - horizontal,
         horizontal - vertical,
     ];
-    let room = Block {
-        lo: DVec2::splat(3.0 * u),
-        hi: page.size() - 3.0 * u,
-    };
     let inside = |b: &Block| b.lo.cmpge(room.lo).all() && b.hi.cmple(room.hi).all();
     let blocks = ways.map(|d| Block::around(at + offset(d), half));
     let block = blocks
@@ -368,22 +379,10 @@ fn label(
         .unwrap_or(&blocks[0])
         .clone();
     let middle = ((block.lo + block.hi) / 2.0).clamp(room.lo + half, room.hi - half);
-    drawing.text(
-        middle + DVec2::new(0.0, -0.4 * u),
-        &view.name,
-        TextStyle {
-            halo: Some(PAPER.fade(0.85)),
-            ..name
-        },
-    );
-    drawing.text(
-        middle + DVec2::new(0.0, 3.6 * u),
-        &line,
-        TextStyle {
-            halo: Some(PAPER.fade(0.85)),
-            ..note
-        },
-    );
+    let halo = PAPER.fade(0.85);
+    let at = middle + DVec2::new(0.0, -0.4 * u);
+    drawing.text_within(at, &view.name, most, name.lifted(halo));
+    drawing.text(middle + DVec2::new(0.0, 3.6 * u), &line, note.lifted(halo));
     taken.push(block);
 }
 

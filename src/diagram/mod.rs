@@ -11,6 +11,7 @@ mod layout;
 pub mod lettering;
 mod map;
 mod page;
+pub mod planning;
 pub mod raster;
 mod sight;
 mod svg;

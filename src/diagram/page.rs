@@ -39,18 +39,46 @@ pub struct Page {
     pub radius: f64,
     /// Layout unit in millimetres.
     pub u: f64,
+    /// Millimetres on the page for one of the scene.
+    scale: f64,
+    /// Where the forest's middle lies, and the corners of the room that labels keep to.
+    middle: DVec2,
+    pub room: [DVec2; 2],
     height: f64,
 }
 
 impl Page {
     pub fn new(facts: &Facts) -> Self {
-        let (centre, radius) = circle(facts.supports);
+        let outlines = facts.supports.iter().flat_map(outline);
+        let (centre, radius) = circle(outlines.copied());
         let rows = facts.views.len() as f64;
+        let u = radius / 60.0;
+        let height = LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW);
+        let edge = DVec2::splat(3.0 * u);
         Self {
             centre,
             radius,
-            u: radius / 60.0,
-            height: LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW),
+            u,
+            scale: 1.0,
+            middle: u * DVec2::new(WIDTH / 2.0, MIDDLE),
+            room: [edge, u * DVec2::new(WIDTH, height) - edge],
+            height,
+        }
+    }
+
+    /// A map as part of a page of other measures: eyes and all within `room`, middle and radius of the forest in scene coordinates.
+    pub fn panel((centre, radius): (DVec2, f64), room: [DVec2; 2], u: f64) -> Self {
+        let size = room[1] - room[0];
+        // Half an eye stands beyond the rim.
+        let reach = (size.min_element() / 2.0 - 3.2 * u).max(u);
+        Self {
+            centre,
+            radius,
+            u,
+            scale: reach / (RIM * radius),
+            middle: (room[0] + room[1]) / 2.0,
+            room,
+            height: room[1].y / u,
         }
     }
 
@@ -72,7 +100,12 @@ impl Page {
     /// The page's place of a point of the scene, true scale.
     pub fn place(&self, p: DVec2) -> DVec2 {
         let d = p - self.centre;
-        self.at(WIDTH / 2.0, MIDDLE) + DVec2::new(d.x, -d.y)
+        self.middle + self.scale * DVec2::new(d.x, -d.y)
+    }
+
+    /// A length of the scene on the page.
+    pub fn scaled(&self, mm: f64) -> f64 {
+        self.scale * mm
     }
 
     pub fn outline(&self, points: &[DVec2]) -> Vec<DVec2> {
@@ -92,23 +125,13 @@ impl Page {
 
     /// Text of a size in layout units.
     pub fn style(&self, size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
-        TextStyle {
-            size: size * self.u,
-            ink,
-            face,
-            anchor,
-            halo: None,
-        }
+        TextStyle::new(size * self.u, face, ink, anchor)
     }
 }
 
-/// Middle and radius of a circle around all outlines; the unit is arbitrary if there are none.
-fn circle(supports: &[Support]) -> (DVec2, f64) {
-    let points: Vec<DVec2> = supports
-        .iter()
-        .flat_map(|s| outline(s).iter().copied())
-        .filter(|p| p.is_finite())
-        .collect();
+/// Middle and radius of a circle around all points; the unit is arbitrary if there are none.
+pub fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
+    let points: Vec<DVec2> = points.filter(|p| p.is_finite()).collect();
     let lo = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let hi = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let centre = (lo + hi) / 2.0;

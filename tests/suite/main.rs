@@ -14,6 +14,7 @@ mod hostile;
 mod lights;
 mod meshes;
 mod numerics;
+mod planning_pictures;
 mod printability;
 mod properties;
 mod readme;
