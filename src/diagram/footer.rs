@@ -2,8 +2,8 @@
 
 use crate::diagram::Facts;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::eyes::{eye_symbol, room_of_eye};
 use crate::diagram::lettering::Face;
-use crate::diagram::map::{eye_symbol, room_of_eye};
 use crate::diagram::page::{
     BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale,
 };

@@ -6,6 +6,7 @@
 
 pub mod curves;
 pub mod drawing;
+mod eyes;
 mod footer;
 mod layout;
 pub mod lettering;

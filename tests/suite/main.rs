@@ -15,6 +15,7 @@ mod lights;
 mod meshes;
 mod numerics;
 mod planning_pictures;
+mod plans;
 mod printability;
 mod properties;
 mod readme;

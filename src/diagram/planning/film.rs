@@ -4,17 +4,21 @@
 //! glide; what belongs to one frame alone, ranges and figures, fades in and out. Attributes as written are those of the last frame: so
 //! viewers that know no animation show the layout chosen.
 
+use super::plot::LEAST_SPAN;
 use super::scenery::Map;
 use super::story::Story;
 use super::tracks::{Track, tracks};
 use super::words;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::Face;
-use crate::diagram::page::{HAIR, PAPER, QUIET, RED, TEXT};
+use crate::diagram::lettering::{Face, width};
+use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT};
 use crate::diagram::svg::{CLOSING, number, opening, push_shape};
+use crate::formats::markup::escaped;
 use crate::planner::Frame;
 use glam::DVec2;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::ops::Range;
 
 /// At most so many frames are shown, spread over this long, and rested on the last, seconds.
 const FRAMES: usize = 24;
@@ -74,6 +78,9 @@ pub fn svg(story: &Story) -> String {
     figures(&mut film, story, &frames);
     film.svg + CLOSING
 }
+
+/// Of the figures.
+const FIGURE: TextStyle = TextStyle::new(5.2, Face::Regular, TEXT, Anchor::Start);
 
 /// The document as it grows.
 struct Film {
@@ -153,6 +160,48 @@ impl Film {
         );
     }
 
+    /// Every letter of a text once, for [`figure`](Self::figure).
+    fn define_letters(&mut self, text: &str) {
+        let letters: BTreeSet<char> = text.chars().filter(|c| !c.is_whitespace()).collect();
+        self.svg.push_str("<defs>\n");
+        for letter in letters {
+            _ = writeln!(self.svg, "<g id=\"u{:x}\">", u32::from(letter));
+            self.still(|d| d.text(DVec2::ZERO, &letter.to_string(), FIGURE));
+            self.svg.push_str("</g>\n");
+        }
+        self.svg.push_str("</defs>\n");
+    }
+
+    /// A text in defined letters, seen in some frames.
+    fn figure(&mut self, at: DVec2, text: &str, frames: Range<usize>) {
+        let shown = (0..self.frames).map(|k| frames.contains(&k));
+        let values: Vec<String> = shown.map(|s| u8::from(s).to_string()).collect();
+        let hidden = values.last().is_some_and(|v| v == "0");
+        let opacity = if hidden { " opacity=\"0\"" } else { "" };
+        _ = writeln!(self.svg, "<g aria-label=\"{}\"{opacity}>", escaped(text));
+        self.switch(values);
+        let mut before = String::new();
+        for letter in text.chars() {
+            let x = at.x + width(&before, FIGURE.size, FIGURE.face);
+            before.push(letter);
+            if !letter.is_whitespace() {
+                let (x, y, code) = (number(x), number(at.y), u32::from(letter));
+                _ = writeln!(self.svg, "<use href=\"#u{code:x}\" x=\"{x}\" y=\"{y}\"/>");
+            }
+        }
+        self.svg.push_str("</g>\n");
+    }
+
+    /// Opacity that changes at once.
+    fn switch(&mut self, mut values: Vec<String>) {
+        values.extend(values.last().cloned());
+        if values.windows(2).any(|v| v[0] != v[1]) {
+            let values = values.join(";");
+            let head = "<animate attributeName=\"opacity\" calcMode=\"discrete\"";
+            _ = writeln!(self.svg, "{head} values=\"{values}\" {}/>", self.timing);
+        }
+    }
+
     /// One attribute through all frames; nothing where it does not change.
     fn animate(&mut self, head: &str, mut values: Vec<String>) {
         let Some(last) = values
@@ -181,16 +230,9 @@ fn fine(x: f64) -> String {
 /// What is told below the map: name, figure of every frame, and a curve with a dot on it.
 fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
     let error = format!("forecast error {} off", words::angle(story.brief));
-    let list: [(&str, fn(&Frame) -> f64, fn(&Frame) -> String); 4] = [
+    let list: [(&str, Value, Told); 4] = [
         ("tries", |f| f.tries as f64, |f| words::count(f.tries)),
-        (
-            "faults",
-            |f| f.faults.sum(),
-            |f| match f.faults.sum() {
-                x if x > 0.0 => words::millimetres(x),
-                _ => "none".into(),
-            },
-        ),
+        ("faults", |f| f.faults.sum(), fault_figure),
         (&error, |f| f.hidden_deg, |f| words::degrees(f.hidden_deg)),
         (
             "tolerance of the eye",
@@ -198,35 +240,36 @@ fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
             |f| words::millimetres(f.tolerance_mm),
         ),
     ];
-    for (k, (name, value, text)) in list.into_iter().enumerate() {
+    let told = list
+        .iter()
+        .flat_map(|(_, _, told)| frames.iter().map(|f| told(f)));
+    film.define_letters(&told.collect::<String>());
+    for (k, (name, value, told)) in list.into_iter().enumerate() {
         let x = MARGIN + PACE * k as f64;
-        film.still(|d| {
-            d.text(
-                DVec2::new(x, LABELS),
-                name,
-                TextStyle::new(3.0, Face::Light, QUIET, Anchor::Start),
-            )
-        });
-        let bold = TextStyle::new(5.2, Face::Regular, TEXT, Anchor::Start);
-        let at = DVec2::new(x, LABELS + 6.6);
+        let style = TextStyle::new(3.0, Face::Light, QUIET, Anchor::Start);
+        film.still(|d| d.text(DVec2::new(x, LABELS), name, style));
         // Equal figures in a row are one.
-        let texts: Vec<String> = frames.iter().map(|f| text(f)).collect();
+        let texts: Vec<String> = frames.iter().map(|f| told(f)).collect();
         let mut from = 0;
         for chunk in texts.chunk_by(|a, b| a == b) {
             let to = from + chunk.len();
-            let shown: Vec<bool> = (0..frames.len()).map(|k| from <= k && k < to).collect();
-            let ink = if name == "faults" && chunk[0] != "none" {
-                RED
-            } else {
-                TEXT
-            };
-            film.open(None, &shown);
-            film.still(|d| d.text(at, &chunk[0], TextStyle { ink, ..bold }));
-            film.svg.push_str("</g>\n");
+            film.figure(DVec2::new(x, LABELS + 6.6), &chunk[0], from..to);
             from = to;
         }
         let values: Vec<f64> = frames.iter().map(|f| value(f)).collect();
         curve(film, x, &values);
+    }
+}
+
+type Value = fn(&Frame) -> f64;
+type Told = fn(&Frame) -> String;
+
+fn fault_figure(frame: &Frame) -> String {
+    let sum = frame.faults.sum();
+    if sum > 0.0 {
+        words::millimetres(sum)
+    } else {
+        "none".into()
     }
 }
 
@@ -237,9 +280,10 @@ fn curve(film: &mut Film, x: f64, values: &[f64]) {
         [e[0].min(v), e[1].max(v)]
     });
     let steps = (values.len() - 1).max(1) as f64;
+    let span = (ends[1] - ends[0]).max(LEAST_SPAN * ends[1].abs());
     let place = |k: usize| {
         // Half up where all are the same; what is endless stays at the edge.
-        let share = (values[k] - ends[0]) / (ends[1] - ends[0]);
+        let share = (values[k] - (ends[0] + ends[1]) / 2.0) / span + 0.5;
         let share = if share.is_nan() {
             0.5
         } else {

@@ -12,6 +12,8 @@ const PAGE: DVec2 = DVec2::new(200.0, 140.0);
 const AXES: [DVec2; 2] = [DVec2::new(24.0, 32.0), DVec2::new(190.0, 120.0)];
 /// Tolerances whose largest is this many times the smallest are drawn on a logarithmic axis.
 const WIDE: f64 = 6.0;
+/// An axis shows at least this share of its largest value: differences of rounding are none.
+pub const LEAST_SPAN: f64 = 0.25;
 /// The line, and what is chosen: Okabe and Ito's blue and vermilion.
 const LINE: Ink = Ink::new([0x00, 0x72, 0xB2]);
 const CHOSEN: Ink = Ink::new([0xD5, 0x5E, 0x00]);
@@ -61,7 +63,7 @@ impl Axis {
                 ticks,
             };
         }
-        let span = (most - least).max(0.1 * most.abs()).max(1e-3);
+        let span = (most - least).max(LEAST_SPAN * most.abs()).max(1e-3);
         let rough = span / 4.0;
         let power = 10f64.powf(rough.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0]

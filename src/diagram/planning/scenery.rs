@@ -3,10 +3,12 @@
 use super::sights::sight;
 use super::story::Story;
 use crate::diagram::Sight;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, Shape, Step, TextStyle};
+use crate::diagram::eyes::{arrow, eye_symbol, eyes};
 use crate::diagram::lettering::Face;
-use crate::diagram::map::{arrow, chord, eye_symbol, eyes, fan, range};
-use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RANGE, RED, TEXT, deep, pale};
+use crate::diagram::map::{chord, fan, range};
+use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, pale};
+use crate::geom::polygon_area;
 use crate::planner::{Frame, Pillar};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -15,7 +17,7 @@ use std::f64::consts::TAU;
 const LEAST_LETTER: f64 = 1.3;
 const LARGEST_LETTER: f64 = 2.8;
 /// Half a cross at a fault, layout units.
-const CROSS: f64 = 1.3;
+const CROSS: f64 = 1.2;
 /// Corners of the circle to which regions are cut.
 const CORNERS: usize = 120;
 
@@ -48,25 +50,27 @@ impl<'a> Map<'a> {
     /// Sight regions, as far as the map shows them.
     pub fn regions(&self, drawing: &mut Drawing) {
         let page = &self.page;
-        let (centre, reach) = (page.centre, RANGE * page.radius);
+        let (centre, reach) = (page.centre, page.range);
         let regions = || self.story.views.iter().zip(&self.story.planned.regions);
         for (view, region) in regions() {
             let inside = page.outline(&within(region, centre, reach));
             drawing.polygon(&inside, Some(Ink::new(view.colour).fade(0.1)), None);
         }
         for (view, region) in regions() {
-            let pen =
-                Pen::new(deep(view.colour, 0.1), 0.35 * page.u).dashed(1.6 * page.u, 1.3 * page.u);
+            let pen = Pen::new(deep(view.colour, 0.1), 0.35 * page.u);
+            let pen = pen.dashed(1.6 * page.u, 1.3 * page.u);
+            // A little inside, so that neighbours' lines lie side by side.
+            let turn = polygon_area(region).signum();
             for k in 0..region.len() {
                 let (p, q) = (region[k], region[(k + 1) % region.len()]);
-                let length = p.distance(q);
                 let way = (q - p).normalize_or_zero();
                 let Some((from, to)) = chord(p - centre, way, reach) else {
                     continue;
                 };
-                let (from, to) = (from.max(0.0), to.min(length));
+                let (from, to) = (from.max(0.0), to.min(p.distance(q)));
                 if from < to {
-                    drawing.polyline(&[page.place(p + from * way), page.place(p + to * way)], pen);
+                    let at = |t: f64| page.place(p + t * way) + 0.3 * page.u * inward(way, turn);
+                    drawing.polyline(&[at(from), at(to)], pen);
                 }
             }
         }
@@ -84,19 +88,31 @@ impl<'a> Map<'a> {
         }
         for (v, sight) in sights.iter().enumerate() {
             for run in sight.runs() {
-                let met = run.support.and_then(|i| frame.pillars.get(i));
-                if met.and_then(|p| p.owner) != Some(v) {
-                    self.wrong(drawing, sight, &run.hits);
+                match run.support.and_then(|i| frame.pillars.get(i)) {
+                    None => self.past(drawing, sight, &run.hits),
+                    Some(p) if p.owner != Some(v) => self.foreign(drawing, sight, &run.hits),
+                    Some(_) => {}
                 }
             }
         }
     }
 
-    fn wrong(&self, drawing: &mut Drawing, sight: &Sight, hits: &[(f64, f64)]) {
+    /// Where an eye looks past all pillars.
+    fn past(&self, drawing: &mut Drawing, sight: &Sight, hits: &[(f64, f64)]) {
         let u = self.page.u;
         let points = range(&self.page, sight, hits);
-        let pen = Pen::new(RED, 0.35 * u).dashed(0.9 * u, 1.1 * u);
-        drawing.polygon(&points, Some(RED.fade(0.14)), Some(pen));
+        drawing.polygon(&points, Some(RED.fade(0.18)), None);
+        if let [far, other_far, other_near, near] = points[..] {
+            let middle = [(near + other_near) / 2.0, (far + other_far) / 2.0];
+            drawing.polyline(&middle, Pen::new(RED, 0.3 * u).dashed(0.8 * u, 1.2 * u));
+        }
+    }
+
+    /// Where an eye meets another view's pillar.
+    fn foreign(&self, drawing: &mut Drawing, sight: &Sight, hits: &[(f64, f64)]) {
+        let at = |(bearing, t): &(f64, f64)| self.page.place(sight.point(*bearing, *t));
+        let line: Vec<DVec2> = hits.iter().map(at).collect();
+        drawing.polyline(&line, Pen::new(RED, 0.9 * self.page.u));
     }
 
     pub fn pillars(&self, drawing: &mut Drawing, pillars: &[Pillar]) {
@@ -142,20 +158,34 @@ impl<'a> Map<'a> {
         drawing.polygon(&outline, fill, Some(pen));
     }
 
-    /// What was done to given pillars: where they stood, and the way to where they stand.
+    /// What was done to given pillars: where they stood, and the way to where they stand; a plus at new ones.
     pub fn changes(&self, drawing: &mut Drawing) {
         let u = self.page.u;
         let pen = Pen::new(TEXT, 0.3 * u).dashed(0.8 * u, 0.9 * u);
         for change in &self.story.planned.changes {
             let given = change.given.and_then(|i| self.story.brief.given.get(i));
-            let Some(given) = given else {
-                continue;
-            };
-            let from = self.page.place(given.at);
-            self.body(drawing, given, from, None, pen);
-            match change.to {
-                Some(to) => drawing.polyline(&[from, self.page.place(to)], pen),
-                None => self.cross(drawing, from, TEXT),
+            match (given, change.to) {
+                (Some(given), Some(to)) => {
+                    let from = self.page.place(given.at);
+                    self.body(drawing, given, from, None, pen);
+                    drawing.polyline(&[from, self.page.place(to)], pen);
+                }
+                (Some(given), None) => {
+                    let from = self.page.place(given.at);
+                    self.body(drawing, given, from, None, pen);
+                    sign(drawing, from, CROSS * u, TEXT, None);
+                }
+                (None, Some(to)) => {
+                    let new = self.story.planned.pillars.iter().find(|p| p.at == to);
+                    let reach = new.map_or(0.0, |p| self.story.brief.shapes[p.shape].reach);
+                    let beside = self.page.scaled(reach) + 1.4 * u;
+                    plus(
+                        drawing,
+                        self.page.place(to) + beside * DVec2::new(-0.7, -0.7),
+                        u,
+                    );
+                }
+                (None, None) => {}
             }
         }
     }
@@ -163,35 +193,24 @@ impl<'a> Map<'a> {
     /// Crosses at faults, the first `numbered` of them with their number in the list below the map.
     pub fn marks(&self, drawing: &mut Drawing, frame: &Frame, numbered: usize) {
         let u = self.page.u;
-        for (k, (place, text)) in frame.marks.iter().enumerate() {
-            let at = self.page.place(*place);
-            drawing.circle(at, 2.1 * u, None, Some(Pen::new(PAPER, 1.2 * u)));
-            drawing.circle(at, 2.1 * u, None, Some(Pen::new(RED, 0.5 * u)));
-            if let Some(ring) = drawing.shapes.last_mut() {
-                ring.text = Some(text.clone());
-            }
-            self.cross(drawing, at, RED);
-            if k < numbered {
-                let style = self
-                    .page
-                    .style(3.2, Face::Bold, RED, Anchor::Start)
-                    .lifted(PAPER);
-                drawing.text(at + u * DVec2::new(2.0, -1.6), &(k + 1).to_string(), style);
-            }
+        for (place, text) in &frame.marks {
+            sign(drawing, self.page.place(*place), CROSS * u, RED, Some(text));
         }
-    }
-
-    fn cross(&self, drawing: &mut Drawing, at: DVec2, ink: Ink) {
-        let pen = Pen::new(ink, 0.5 * self.page.u);
-        for way in [DVec2::new(1.0, 1.0), DVec2::new(1.0, -1.0)] {
-            let arm = CROSS * self.page.u * way;
-            drawing.polyline(&[at - arm, at + arm], pen);
+        for (k, (place, _)) in frame.marks.iter().enumerate().take(numbered) {
+            let style = self.page.style(3.6, Face::Bold, RED, Anchor::Start);
+            let beside = self.page.place(*place) + u * DVec2::new(1.9, -1.1);
+            drawing.text(beside, &(k + 1).to_string(), style.lifted(PAPER));
         }
     }
 
     /// Eyes with their names.
     pub fn eyes(&self, drawing: &mut Drawing) {
-        eyes(drawing, &self.page, self.story.views, &[]);
+        let numbers = if self.story.numbered {
+            &self.story.keys[..]
+        } else {
+            &[]
+        };
+        eyes(drawing, &self.page, self.story.views, &[], numbers);
     }
 
     /// Eyes with their letters, for small maps.
@@ -204,10 +223,45 @@ impl<'a> Map<'a> {
             arrow(drawing, page, at, ahead, far, view.colour);
             eye_symbol(drawing, at, 4.0 * page.u, view.colour);
             let style = page.style(5.0, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
-            let beside = at + page.u * (6.4 * ahead.perp() + DVec2::new(0.0, 1.8));
+            let beside = at + page.u * (7.4 * ahead.perp() + DVec2::new(0.0, 1.8));
             drawing.text(beside, key, style.lifted(PAPER));
         }
     }
+}
+
+/// A diagonal cross on a pale one. `text` is what it says in the SVG.
+pub fn sign(drawing: &mut Drawing, at: DVec2, half: f64, ink: Ink, text: Option<&str>) {
+    let arm = |x: f64, y: f64| at + half * DVec2::new(x, y);
+    let steps = vec![
+        Step::Move(arm(-1.0, -1.0)),
+        Step::Line(arm(1.0, 1.0)),
+        Step::Move(arm(-1.0, 1.0)),
+        Step::Line(arm(1.0, -1.0)),
+    ];
+    for (ink, width, text) in [(PAPER, 1.25, None), (ink, 0.58, text)] {
+        drawing.shapes.push(Shape {
+            steps: steps.clone(),
+            fill: None,
+            pen: Some(Pen::new(ink, width * half)),
+            text: text.map(str::to_owned),
+        });
+    }
+}
+
+/// The sign of what is new.
+pub fn plus(drawing: &mut Drawing, at: DVec2, half: f64) {
+    for way in [DVec2::X, DVec2::Y] {
+        drawing.polyline(
+            &[at - half * way, at + half * way],
+            Pen::new(TEXT, 0.5 * half),
+        );
+    }
+}
+
+/// The side of an edge on which its polygon lies, on the page. `turn` is 1 for counter-clockwise outlines in the scene.
+fn inward(way: DVec2, turn: f64) -> DVec2 {
+    let left = turn * way.perp();
+    DVec2::new(left.x, -left.y)
 }
 
 /// The part of a convex polygon within a circle (Sutherland and Hodgman's cut at every side of a polygon around it).

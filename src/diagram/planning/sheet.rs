@@ -1,12 +1,12 @@
 //! The plan's page: two maps at the same scale, what they are worth, and what camouflage costs.
 
 use super::plot;
-use super::scenery::Map;
+use super::scenery::{Map, plus, sign};
 use super::story::Story;
 use super::words;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::eyes::eye_symbol;
 use crate::diagram::lettering::{Face, width};
-use crate::diagram::map::eye_symbol;
 use crate::diagram::page::{HAIR, PAPER, QUIET, RED, TEXT, deep, pale};
 use crate::planner::{Adjustment, Frame, Worth};
 use glam::DVec2;
@@ -19,32 +19,32 @@ const MARGIN: f64 = 11.0;
 const COLUMNS: [[f64; 2]; 2] = [[MARGIN, 146.0], [151.0, WIDTH - MARGIN]];
 /// Baselines of the maps' captions; top and bottom of the maps.
 const CAPTION: f64 = 30.0;
-const MAPS: [f64; 2] = [36.0, 148.0];
+const MAPS: [f64; 2] = [36.0, 149.0];
 /// Layout unit of the maps: letters of names are 4.4 of it.
 const UNIT: f64 = 0.72;
 /// Faults listed below a map, at most, and the height of a line.
 const LISTED: usize = 6;
 const LINE: f64 = 3.7;
 /// Room of the key, and below it down to the first row of the table.
-const KEY: f64 = 8.0;
+const KEY: f64 = 7.0;
 const HEAD: f64 = 13.0;
 /// Height of a row of the table, and of a note below a name.
 const ROW: f64 = 5.2;
 const NOTE: f64 = 3.0;
 /// Height of the plot with its axes, at least.
-const PLOT: f64 = 46.0;
+const PLOT: f64 = 44.0;
 /// Columns of the table: the names' left edge, then the right edges of figures.
 const NAME: f64 = 24.0;
-const NAME_WIDTH: f64 = 30.0;
-const FIGURES: [f64; 7] = [65.0, 79.0, 91.0, 104.0, 118.0, 132.0, 146.0];
+const NAME_WIDTH: f64 = 27.0;
+const FIGURES: [f64; 7] = [62.0, 76.0, 88.0, 101.0, 115.0, 130.0, 146.0];
 
 pub fn draw(story: &Story) -> Drawing {
     let lists = [story.first(), story.last()].map(|f| f.marks.len().min(LISTED + 1));
-    let key = MAPS[1] + LINE * lists[0].max(lists[1]) as f64 + 4.0;
+    let key = MAPS[1] + LINE * lists[0].max(lists[1]) as f64 + 5.5;
     let table = key + KEY;
     let rows = rows_height(story);
     let bottom = table + (HEAD + rows + 9.0).max(PLOT);
-    let size = DVec2::new(WIDTH, LEAST_HEIGHT.max(bottom + 6.0));
+    let size = DVec2::new(WIDTH, LEAST_HEIGHT.max(bottom + 4.0));
     let mut drawing = Drawing::new(size);
     drawing.rect(DVec2::ZERO, size, Some(PAPER), None);
     heading(&mut drawing, story);
@@ -73,7 +73,7 @@ pub fn draw(story: &Story) -> Drawing {
     figures(&mut drawing, story, table);
     let axes = [
         DVec2::new(COLUMNS[1][0] + 16.0, table + 3.0),
-        DVec2::new(COLUMNS[1][1], size.y - 16.0),
+        DVec2::new(COLUMNS[1][1], size.y - 14.0),
     ];
     plot::draw(&mut drawing, axes, 2.8, story.brief, story.planned);
     drawing
@@ -93,7 +93,12 @@ fn heading(drawing: &mut Drawing, story: &Story) {
         .fitting(story.title, WIDTH - 2.0 * MARGIN);
     drawing.text(DVec2::new(MARGIN, 14.5), story.title, title);
     let line = format!(
-        "Layout before and after the search, from above   ·   {}   ·   {}   ·   seed {}",
+        "The layout {}, from above   ·   {}   ·   {}   ·   seed {}",
+        if story.mended() {
+            "as given and mended"
+        } else {
+            "before and after the search"
+        },
         words::plural(story.views.len() as u64, "view"),
         words::plural(story.last().pillars.len() as u64, "pillar"),
         story.brief.seed,
@@ -104,7 +109,12 @@ fn heading(drawing: &mut Drawing, story: &Story) {
 
 fn caption(drawing: &mut Drawing, story: &Story, column: &[f64; 2], frame: &Frame, before: bool) {
     let at = DVec2::new(column[0], CAPTION);
-    let name = if before { "Before" } else { "After" };
+    let name = match (story.mended(), before) {
+        (false, true) => "Before",
+        (false, false) => "After",
+        (true, true) => "As given",
+        (true, false) => "Mended",
+    };
     let bold = TextStyle::new(4.6, Face::Bold, TEXT, Anchor::Start);
     drawing.text(at, name, bold);
     let beside = at + DVec2::new(width(name, bold.size, bold.face) + 3.0, 0.0);
@@ -119,7 +129,7 @@ fn caption(drawing: &mut Drawing, story: &Story, column: &[f64; 2], frame: &Fram
     let style = TextStyle::new(3.1, Face::Light, TEXT, Anchor::Start);
     drawing.text(beside, &line, style.fitting(&line, column[1] - beside.x));
     let (faults, ink) = match words::faults(&frame.faults) {
-        Some(faults) => (format!("✗ {faults}"), RED),
+        Some(faults) => (format!("faults: {faults}"), RED),
         None => ("no faults".to_owned(), QUIET),
     };
     let style = TextStyle::new(2.9, Face::Light, ink, Anchor::Start);
@@ -165,22 +175,23 @@ fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
     let style = TextStyle::new(2.8, Face::Light, TEXT, Anchor::Start);
     let fine = Pen::new(deep(grey, 0.35), 0.2);
     let mut x = MARGIN;
+    let gap = if story.mended() { 5.0 } else { 7.0 };
     let mut entry = |drawing: &mut Drawing, text: &str, sign: &dyn Fn(&mut Drawing, DVec2)| {
         sign(drawing, DVec2::new(x + 2.5, y - 0.9));
         drawing.text(DVec2::new(x + 6.6, y), text, style);
-        x += 6.6 + width(text, style.size, style.face) + 7.0;
+        x += 6.6 + width(text, style.size, style.face) + gap;
     };
-    let swatch = |drawing: &mut Drawing, at: DVec2, fill: Ink, pen: Pen| {
+    let swatch = |drawing: &mut Drawing, at: DVec2, fill: Ink, pen: Option<Pen>| {
         let half = DVec2::new(2.5, 1.4);
-        drawing.rect(at - half, at + half, Some(fill), Some(pen));
+        drawing.rect(at - half, at + half, Some(fill), pen);
     };
     entry(drawing, "visible range", &|d, at| {
-        swatch(d, at, Ink::new(grey).fade(0.3), fine)
+        swatch(d, at, Ink::new(grey).fade(0.3), Some(fine))
     });
     if story.planned.regions.iter().any(|r| !r.is_empty()) {
         let pen = Pen::new(deep(grey, 0.1), 0.3).dashed(1.1, 1.0);
         entry(drawing, "sight region of the start", &|d, at| {
-            swatch(d, at, Ink::new(grey).fade(0.1), pen)
+            swatch(d, at, Ink::new(grey).fade(0.1), Some(pen))
         });
     }
     entry(drawing, "pillar, with its view's letter", &|d, at| {
@@ -189,19 +200,22 @@ fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
     entry(drawing, "fixed", &|d, at| {
         d.circle(at, 1.6, Some(pale(grey, 0.3)), Some(Pen::new(TEXT, 0.65)));
     });
-    if !story.planned.changes.is_empty() {
+    if story.mended() {
         entry(drawing, "where a given pillar stood", &|d, at| {
             d.circle(at, 1.6, None, Some(Pen::new(TEXT, 0.22).dashed(0.6, 0.7)));
         });
+        entry(drawing, "new", &|d, at| plus(d, at, 0.9));
     }
-    entry(drawing, "fault", &|d, at| {
-        d.circle(at, 1.6, None, Some(Pen::new(RED, 0.35)));
-        for way in [DVec2::new(1.0, 1.0), DVec2::new(1.0, -1.0)] {
-            d.polyline(&[at - 0.95 * way, at + 0.95 * way], Pen::new(RED, 0.35));
-        }
+    entry(drawing, "fault", &|d, at| sign(d, at, 0.95, RED, None));
+    entry(drawing, "looks past all pillars", &|d, at| {
+        swatch(d, at, RED.fade(0.18), None);
+        let way = DVec2::new(2.5, 0.0);
+        d.polyline(&[at - way, at + way], Pen::new(RED, 0.22).dashed(0.6, 0.9));
     });
-    entry(drawing, "sees no pillar, or another view's", &|d, at| {
-        swatch(d, at, RED.fade(0.14), Pen::new(RED, 0.25).dashed(0.65, 0.8));
+    entry(drawing, "meets another view's pillar", &|d, at| {
+        d.circle(at, 1.7, Some(pale(grey, 0.3)), Some(fine));
+        let arc = [-1.5, -0.75, 0.0, 0.75, 1.5].map(|a: f64| at + 1.7 * DVec2::from_angle(a));
+        d.polyline(&arc, Pen::new(RED, 0.65));
     });
 }
 
@@ -238,9 +252,9 @@ fn figures(drawing: &mut Drawing, story: &Story, top: f64) {
         ["", "conflicts"],
         ["", "pillars"],
         ["error", off.as_str()],
-        ["half likeness", "lost at"],
+        ["likeness", "halved at"],
         ["", "middle"],
-        ["tolerance of the eye", "anywhere"],
+        ["tolerance of the eye", "guaranteed"],
     ];
     for (x, [upper, lower]) in FIGURES.iter().zip(titles) {
         drawing.text(DVec2::new(*x, top + 4.5), upper, head);
@@ -271,31 +285,29 @@ fn figures(drawing: &mut Drawing, story: &Story, top: f64) {
         }
         y += ROW;
     }
-    let rule = [
-        DVec2::new(MARGIN, y - 3.9),
-        DVec2::new(COLUMNS[0][1], y - 3.9),
-    ];
+    totals(drawing, story, y);
+}
+
+/// The last row, and how the search ended.
+fn totals(drawing: &mut Drawing, story: &Story, y: f64) {
+    let rule = [MARGIN, COLUMNS[0][1]].map(|x| DVec2::new(x, y - 3.9));
     drawing.polyline(&rule, Pen::new(HAIR, 0.2));
     let style = TextStyle::new(3.3, Face::Regular, TEXT, Anchor::Start);
     drawing.text(DVec2::new(MARGIN, y), "worst, and all pillars", style);
     row(drawing, y, &worst(story), Face::Regular);
-    let fixed = story.planned.pillars.iter().filter(|p| p.fixed).count();
-    let fixed = if fixed > 0 {
-        format!(" ({} fixed)", fixed)
-    } else {
-        String::new()
+    let planned = story.planned;
+    let fixed = match planned.pillars.iter().filter(|p| p.fixed).count() {
+        0 => String::new(),
+        n => format!(" ({n} fixed)"),
     };
     let line = format!(
         "{}{fixed}   ·   {}   ·   {}",
-        words::plural(story.planned.pillars.len() as u64, "pillar"),
-        words::plural(story.planned.tries, "try"),
-        words::ended(story.planned.ended),
+        words::plural(planned.pillars.len() as u64, "pillar"),
+        words::plural(planned.tries, "try"),
+        words::ended(planned.ended),
     );
-    drawing.text(
-        DVec2::new(MARGIN, y + 5.4),
-        &line,
-        TextStyle::new(2.9, Face::Light, QUIET, Anchor::Start),
-    );
+    let style = TextStyle::new(2.9, Face::Light, QUIET, Anchor::Start);
+    drawing.text(DVec2::new(MARGIN, y + 5.4), &line, style);
 }
 
 fn row(drawing: &mut Drawing, y: f64, cells: &[String; 7], face: Face) {

@@ -15,6 +15,8 @@ pub struct Story<'a> {
     pub frames: Cow<'a, [Frame]>,
     /// What stands on every view's pillars: the first letter of its name, or its number if two views share one.
     pub keys: Vec<String>,
+    /// Whether these are numbers, which names do not tell.
+    pub numbered: bool,
     /// Middle and radius of a circle around the region and all pillars.
     pub circle: (DVec2, f64),
 }
@@ -32,13 +34,15 @@ impl<'a> Story<'a> {
             profile.iter().map(|q| p.at + *q)
         });
         let circle = circle(brief.region.iter().copied().chain(outlines));
+        let (keys, numbered) = keys(views);
         Self {
             title,
             views,
             brief,
             planned,
             frames,
-            keys: keys(views),
+            keys,
+            numbered,
             circle,
         }
     }
@@ -57,6 +61,11 @@ impl<'a> Story<'a> {
         let steps = last.min(most.saturating_sub(1));
         let at = |k: usize| (2 * k * last + steps) / (2 * steps).max(1);
         (0..=steps).map(at).collect()
+    }
+
+    /// Whether given pillars were moved, taken away or joined by others.
+    pub fn mended(&self) -> bool {
+        !self.planned.changes.is_empty()
     }
 
     /// The owner of a pillar, if it has one.
@@ -82,7 +91,8 @@ fn only_frame(planned: &Planned) -> Frame {
     }
 }
 
-fn keys(views: &[View]) -> Vec<String> {
+/// The keys, and whether they are numbers.
+fn keys(views: &[View]) -> (Vec<String>, bool) {
     let letter = |v: &View| {
         let first = v.name.chars().find(|c| c.is_alphanumeric());
         first.map_or(String::new(), |c| c.to_uppercase().collect())
@@ -92,7 +102,7 @@ fn keys(views: &[View]) -> Vec<String> {
     distinct.sort();
     distinct.dedup();
     if distinct.len() == views.len() && !distinct.iter().any(String::is_empty) {
-        return letters;
+        return (letters, false);
     }
-    (1..=views.len()).map(|k| k.to_string()).collect()
+    ((1..=views.len()).map(|k| k.to_string()).collect(), true)
 }

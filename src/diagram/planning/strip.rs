@@ -73,7 +73,7 @@ fn cell(drawing: &mut Drawing, story: &Story, index: usize, corner: DVec2) {
     match words::faults(&frame.faults) {
         Some(faults) => drawing.text_within(
             below,
-            &format!("✗ {faults}"),
+            &format!("faults: {faults}"),
             CELL.x - 4.0,
             TextStyle { ink: RED, ..small },
         ),
