@@ -11,6 +11,7 @@ mod sheet;
 mod sights;
 mod story;
 mod strip;
+mod table;
 mod tracks;
 mod words;
 
