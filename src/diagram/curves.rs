@@ -4,8 +4,8 @@
 //! the view's own eye, so that one line is half of all of them. The axis of angles is linear near 0 and logarithmic
 //! beyond [`KNEE_DEG`]: a likeness is mostly lost within few degrees, and what returns returns far from there.
 
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Anchor, Drawing, Pen, TextStyle};
+use crate::diagram::lettering::Face;
 use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT, deep};
 use glam::DVec2;
 
@@ -45,17 +45,12 @@ pub fn curves(title: &str, list: &[Curve]) -> Drawing {
     let height = TABLE + ROW * list.len() as f64 + BELOW;
     let mut drawing = Drawing::new(DVec2::new(PAGE, height));
     drawing.rect(DVec2::ZERO, drawing.size, Some(PAPER), None);
-    let head = style(6.4, Face::Regular, TEXT, Anchor::Start);
-    let fit = ((PAGE - 18.0) / width(title, head.size, head.face).max(1e-9)).min(1.0);
-    let head = TextStyle {
-        size: head.size * fit,
-        ..head
-    };
+    let head = TextStyle::new(6.4, Face::Regular, TEXT, Anchor::Start).fitting(title, PAGE - 18.0);
     drawing.text(DVec2::new(12.0, 12.0), title, head);
     drawing.text(
         DVec2::new(12.0, 18.5),
         "How like its model the forest is to eyes that stand elsewhere, relative to the view's own eye",
-        style(3.4, Face::Light, QUIET, Anchor::Start),
+        TextStyle::new(3.4, Face::Light, QUIET, Anchor::Start),
     );
     let tallest = list.iter().flat_map(relative).map(|p| p.1);
     let scale = Scale {
@@ -85,16 +80,6 @@ impl Scale {
     }
 }
 
-fn style(size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
-    TextStyle {
-        size,
-        ink,
-        face,
-        anchor,
-        halo: None,
-    }
-}
-
 /// Points with values relative to the first; none if that is nothing.
 fn relative(curve: &Curve) -> Vec<(f64, f64)> {
     let own = curve.points.first().map_or(0.0, |p| p.1);
@@ -105,7 +90,7 @@ fn relative(curve: &Curve) -> Vec<(f64, f64)> {
 }
 
 fn frame(drawing: &mut Drawing, scale: &Scale) {
-    let label = style(3.2, Face::Light, QUIET, Anchor::Middle);
+    let label = TextStyle::new(3.2, Face::Light, QUIET, Anchor::Middle);
     for deg in TICKS_DEG {
         let (foot, head) = (scale.place(deg, 0.0), scale.place(deg, scale.top));
         drawing.polyline(&[foot, head], Pen::new(HAIR, 0.15));
@@ -173,7 +158,7 @@ fn draw_curve(drawing: &mut Drawing, scale: &Scale, curve: &Curve) {
 }
 
 fn table(drawing: &mut Drawing, list: &[Curve]) {
-    let head = style(3.0, Face::Light, QUIET, Anchor::End);
+    let head = TextStyle::new(3.0, Face::Light, QUIET, Anchor::End);
     let y = TABLE - 4.5;
     let titles = [
         "likeness at the eye",
@@ -191,12 +176,8 @@ fn table(drawing: &mut Drawing, list: &[Curve]) {
         let (start, end) = (DVec2::new(12.0, y - 1.2), DVec2::new(24.0, y - 1.2));
         drawing.polyline(&[start, end], Pen::new(ink, 0.9));
         drawing.circle((start + end) / 2.0, 0.9, Some(ink), None);
-        let name = style(3.6, Face::Regular, TEXT, Anchor::Start);
-        let fit = (42.0 / width(&curve.name, name.size, name.face).max(1e-9)).min(1.0);
-        let name = TextStyle {
-            size: name.size * fit,
-            ..name
-        };
+        let name =
+            TextStyle::new(3.6, Face::Regular, TEXT, Anchor::Start).fitting(&curve.name, 42.0);
         drawing.text(DVec2::new(COLUMNS[0], y), &curve.name, name);
         let own = curve.points.first().map_or(0.0, |p| p.1);
         let cells = [
@@ -206,7 +187,7 @@ fn table(drawing: &mut Drawing, list: &[Curve]) {
             or_never(curve.worst.map(|w| format!("{:.2}", w.1))),
         ];
         for (x, text) in COLUMNS[1..].iter().zip(cells) {
-            let body = style(3.4, Face::Light, TEXT, Anchor::End);
+            let body = TextStyle::new(3.4, Face::Light, TEXT, Anchor::End);
             drawing.text(DVec2::new(*x, y), &text, body);
         }
     }

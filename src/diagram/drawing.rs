@@ -88,6 +88,39 @@ pub struct TextStyle {
     pub halo: Option<Ink>,
 }
 
+impl TextStyle {
+    /// Without a border.
+    pub const fn new(size: f64, face: Face, ink: Ink, anchor: Anchor) -> Self {
+        Self {
+            size,
+            ink,
+            face,
+            anchor,
+            halo: None,
+        }
+    }
+
+    pub const fn anchored(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
+    }
+
+    pub const fn lifted(self, halo: Ink) -> Self {
+        Self {
+            halo: Some(halo),
+            ..self
+        }
+    }
+
+    /// As large as it is, or as small as it must be for a text no wider than `most`.
+    pub fn fitting(self, text: &str, most: f64) -> Self {
+        let width = lettering::width(text, self.size, self.face);
+        Self {
+            size: self.size * (most / width.max(1e-9)).min(1.0),
+            ..self
+        }
+    }
+}
+
 /// The display list of one page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
@@ -142,6 +175,16 @@ impl Drawing {
 
     /// Sets one line of text on a baseline point.
     pub fn text(&mut self, at: DVec2, text: &str, style: TextStyle) {
+        self.text_for(at, text, text, style);
+    }
+
+    /// The same no wider than `most`: cut with an ellipsis if it must be. The SVG still says all of it.
+    pub fn text_within(&mut self, at: DVec2, text: &str, most: f64, style: TextStyle) {
+        let short = lettering::shortened(text, most, style.size, style.face);
+        self.text_for(at, &short, text, style);
+    }
+
+    fn text_for(&mut self, at: DVec2, text: &str, meaning: &str, style: TextStyle) {
         let width = lettering::width(text, style.size, style.face);
         let start = match style.anchor {
             Anchor::Start => at,
@@ -167,7 +210,7 @@ impl Drawing {
             steps,
             fill: Some(style.ink),
             pen,
-            text: Some(text.to_owned()),
+            text: Some(meaning.to_owned()),
         });
     }
 

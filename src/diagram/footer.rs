@@ -2,8 +2,8 @@
 
 use crate::diagram::Facts;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
-use crate::diagram::map::{eye_symbol, room_of_eye};
+use crate::diagram::eyes::{eye_symbol, room_of_eye};
+use crate::diagram::lettering::Face;
 use crate::diagram::page::{
     BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale,
 };
@@ -36,10 +36,7 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 
 fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let head = page.style(2.7, Face::Light, QUIET, Anchor::Start);
-    let right = |style| TextStyle {
-        anchor: Anchor::End,
-        ..style
-    };
+    let right = |style: TextStyle| style.anchored(Anchor::End);
     let y = TABLE - 3.5;
     drawing.text(page.at(NAME, y), "view", head);
     drawing.text(page.at(EYE, y), "eye x, y, z in mm", head);
@@ -57,11 +54,7 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             face: Face::Regular,
             ..body
         };
-        drawing.text(
-            page.at(NAME, y + 2.2),
-            &shortened(&view.name, 36.0 * page.u, name.size),
-            name,
-        );
+        drawing.text_within(page.at(NAME, y + 2.2), &view.name, 36.0 * page.u, name);
         let eye = format!(
             "{}, {}, {}",
             plain(view.eye.x),
@@ -88,21 +81,6 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 /// One decimal, and none for whole numbers; never -0.
 fn plain(x: f64) -> String {
     format!("{}", (10.0 * x).round() / 10.0 + 0.0).replace('-', "\u{2212}")
-}
-
-/// A name cut to a width, with an ellipsis.
-fn shortened(name: &str, most: f64, size: f64) -> String {
-    if width(name, size, Face::Regular) <= most {
-        return name.to_owned();
-    }
-    let mut text = String::new();
-    for c in name.chars() {
-        if width(&format!("{text}{c}…"), size, Face::Regular) > most {
-            break;
-        }
-        text.push(c);
-    }
-    text + "…"
 }
 
 /// Where the eyes really are; only if the map could not show it.

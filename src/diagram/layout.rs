@@ -55,13 +55,7 @@ pub fn layout(title: &str, views: &[View], supports: &[Support], split: &Split) 
     let sheet = Sheet::new(supports);
     let mut drawing = Drawing::new(sheet.size);
     drawing.rect(DVec2::ZERO, sheet.size, Some(PAPER), None);
-    let heading = style(TITLE, TEXT, Anchor::Start);
-    let most = sheet.size.x - MARGIN;
-    let fit = (most / width(title, TITLE, heading.face).max(1e-9)).min(1.0);
-    let heading = TextStyle {
-        size: TITLE * fit,
-        ..heading
-    };
+    let heading = style(TITLE, TEXT, Anchor::Start).fitting(title, sheet.size.x - MARGIN);
     drawing.text(DVec2::new(MARGIN / 2.0, MARGIN / 2.0), title, heading);
     base(&mut drawing, &sheet, supports);
     cuts(&mut drawing, &sheet, split);
@@ -75,13 +69,7 @@ pub fn layout(title: &str, views: &[View], supports: &[Support], split: &Split) 
 }
 
 fn style(size: f64, ink: Ink, anchor: Anchor) -> TextStyle {
-    TextStyle {
-        size,
-        ink,
-        face: Face::Regular,
-        anchor,
-        halo: None,
-    }
+    TextStyle::new(size, Face::Regular, ink, anchor)
 }
 
 fn base(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support]) {
@@ -180,10 +168,7 @@ fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
         };
         let room = half + 1.0;
         let at = DVec2::new(at.x.clamp(room, (sheet.size.x - room).max(room)), at.y);
-        let words = TextStyle {
-            halo: Some(PAPER),
-            ..style(SMALL, ink, Anchor::Middle)
-        };
+        let words = style(SMALL, ink, Anchor::Middle).lifted(PAPER);
         drawing.text(at, &text, words);
     }
 }

@@ -61,6 +61,21 @@ pub fn width(text: &str, size: f64, face: Face) -> f64 {
     size * set(text, face, |_, _, _, _| {})
 }
 
+/// A text cut to a width, with an ellipsis.
+pub fn shortened(text: &str, most: f64, size: f64, face: Face) -> String {
+    if width(text, size, face) <= most {
+        return text.to_owned();
+    }
+    let mut short = String::new();
+    for c in text.chars() {
+        if width(&format!("{short}{c}…"), size, face) > most {
+            break;
+        }
+        short.push(c);
+    }
+    short + "…"
+}
+
 /// The outlines of a line of text whose baseline starts at `start`.
 pub fn outlines(text: &str, start: DVec2, size: f64, face: Face) -> Vec<Step> {
     let mut steps = Vec::new();

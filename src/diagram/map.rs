@@ -1,18 +1,13 @@
 //! The plan's main part: base, visible ranges, pillars, constrained segments, eyes.
 
 use crate::diagram::Facts;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, Shape, Step, TextStyle};
+use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::eyes::eyes;
 use crate::diagram::lettering::{Face, width};
-use crate::diagram::page::{
-    BASE, FREE, HAIR, PAPER, Page, QUIET, RANGE, RED, TEXT, deep, length, outline, pale,
-};
+use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, outline, pale};
 use crate::diagram::sight::{Run, Sight};
 use crate::support::{Support, SupportKind};
-use crate::view::View;
 use glam::DVec2;
-
-/// Half the width of the eye symbol, layout units.
-const EYE: f64 = 4.0;
 
 pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.rect(DVec2::ZERO, page.size(), Some(PAPER), None);
@@ -31,20 +26,15 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             .for_each(|run| constrained(drawing, page, facts, sight, run));
     }
     numbers(drawing, page, facts);
-    eyes(drawing, page, facts);
+    eyes(drawing, page, facts.views, facts.rooms, &[]);
 }
 
 fn heading(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     let full = page.style(9.0, Face::Regular, TEXT, Anchor::Start);
-    // Long titles shrink to the page's width.
-    let fit = (186.0 * page.u / width(facts.title, full.size, full.face).max(1e-9)).min(1.0);
     drawing.text(
         page.at(12.0, 19.0),
         facts.title,
-        TextStyle {
-            size: full.size * fit,
-            ..full
-        },
+        full.fitting(facts.title, 186.0 * page.u),
     );
     let plural = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let line = format!(
@@ -74,24 +64,13 @@ fn base(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 }
 
 /// The range of one interval: from the eye, or from the range's end if the eye is drawn nearer than it is, to what it meets.
-fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: [u8; 3]) {
+pub fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: [u8; 3]) {
     let hits: Vec<(f64, f64)> = runs.iter().flat_map(|r| r.hits.iter().copied()).collect();
-    let reach = RANGE * page.radius;
-    let chord = |angle: f64| chord(sight.eye - page.centre, sight.direction(angle), reach);
-    let far = |&(angle, t): &(f64, f64)| {
-        chord(angle).map(|(_, exit)| page.place(sight.point(angle, t.min(exit))))
-    };
     let broken = page.stand(sight.eye).1;
-    let start = |entry: f64| if broken { entry.max(0.0) } else { 0.0 };
-    let near = |&(angle, _): &(f64, f64)| {
-        chord(angle).map(|(entry, _)| page.place(sight.point(angle, start(entry))))
-    };
-    let mut points: Vec<DVec2> = hits.iter().filter_map(far).collect();
-    points.extend(hits.iter().rev().filter_map(near));
-    let ink = Ink::new(colour);
-    drawing.polygon(&points, Some(ink.fade(0.26)), None);
+    let points = range(page, sight, &hits);
+    drawing.polygon(&points, Some(Ink::new(colour).fade(0.26)), None);
     for side in [hits.first(), hits.last()].into_iter().flatten() {
-        let Some((near, far)) = near(side).zip(far(side)) else {
+        let Some((near, far)) = stretch(page, sight, *side) else {
             continue;
         };
         drawing.polyline(
@@ -110,8 +89,25 @@ fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: 
     }
 }
 
+/// What lies before some hits of an eye, as a polygon on the page: what they hit first, then back along the eye's side.
+pub fn range(page: &Page, sight: &Sight, hits: &[(f64, f64)]) -> Vec<DVec2> {
+    let ends = |hit: &(f64, f64)| stretch(page, sight, *hit);
+    let far = hits.iter().filter_map(ends).map(|s| s.1);
+    let near = hits.iter().rev().filter_map(ends).map(|s| s.0);
+    far.chain(near).collect()
+}
+
+/// Where a ray begins on the page, and where it meets something or leaves the range.
+fn stretch(page: &Page, sight: &Sight, (angle, t): (f64, f64)) -> Option<(DVec2, DVec2)> {
+    let (entry, exit) = chord(sight.eye - page.centre, sight.direction(angle), page.range)?;
+    let broken = page.stand(sight.eye).1;
+    let start = if broken { entry.max(0.0) } else { 0.0 };
+    let at = |t: f64| page.place(sight.point(angle, t));
+    Some((at(start), at(t.min(exit))))
+}
+
 /// Distances at which a ray from `from` (relative to a circle's centre) enters and leaves the circle.
-fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
+pub fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
     let along = from.dot(direction);
     let root = (along * along - from.length_squared() + radius * radius).sqrt();
     (root.is_finite() && root - along > 0.0).then_some((-along - root, -along + root))
@@ -216,193 +212,4 @@ fn disc(support: &Support) -> Option<(DVec2, f64)> {
             .map(|p| p.distance(*axis))
             .fold(0.0, f64::max),
     ))
-}
-
-fn eyes(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    let stands: Vec<(DVec2, bool)> = facts
-        .views
-        .iter()
-        .map(|v| page.stand(v.eye.truncate()))
-        .collect();
-    let ways: Vec<DVec2> = facts
-        .views
-        .iter()
-        .zip(&stands)
-        .map(|(v, s)| page.place(v.look_at.truncate()) - page.place(s.0))
-        .collect();
-    let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
-    let mut taken: Vec<Block> = Vec::new();
-    let room = |k: usize| facts.rooms.get(k).copied().flatten();
-    for (k, ((stand, _), ahead)) in stands.iter().zip(&ways).enumerate() {
-        let at = page.place(*stand);
-        taken.push(Block::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
-        taken.extend(room(k).map(|r| Block::around(at, DVec2::splat(r))));
-        taken.push(Block::around(
-            at + 10.0 * page.u * *ahead,
-            DVec2::splat(1.2 * page.u) + 5.0 * page.u * ahead.abs(),
-        ));
-    }
-    let views = facts.views.iter().zip(&stands).zip(&ways);
-    for (k, ((view, (stand, far)), &ahead)) in views.enumerate() {
-        let at = page.place(*stand);
-        arrow(drawing, page, at, ahead, *far, view.colour);
-        eye_symbol(drawing, at, EYE * page.u, view.colour);
-        let mut clear = EYE;
-        if let Some(room) = room(k) {
-            room_of_eye(drawing, page, at, room, view.colour);
-            clear = clear.max(room / page.u + 0.6);
-        }
-        label(drawing, page, view, (at, clear), -ahead, *far, &mut taken);
-    }
-}
-
-/// The places to which an eye may move with its picture still one, at true scale: over the eye's symbol, which is often larger.
-pub fn room_of_eye(drawing: &mut Drawing, page: &Page, at: DVec2, room: f64, colour: [u8; 3]) {
-    let rim = |ink, width: f64| Some(Pen::new(ink, width * page.u));
-    let ink = Ink::new(colour).fade(0.25);
-    drawing.circle(at, room, None, rim(PAPER, 0.7));
-    drawing.circle(at, room, Some(ink), rim(deep(colour, 0.5), 0.3));
-}
-
-/// From the eye towards what it looks at; with a break if the eye is further away than drawn.
-fn arrow(drawing: &mut Drawing, page: &Page, at: DVec2, ahead: DVec2, far: bool, colour: [u8; 3]) {
-    let u = page.u;
-    let side = ahead.perp();
-    let pen = Pen::new(deep(colour, 0.25), 0.5 * u);
-    let (start, tip) = (at + 5.2 * u * ahead, at + 15.0 * u * ahead);
-    let head = tip - 2.4 * u * ahead;
-    if far {
-        let gap = at + 8.6 * u * ahead;
-        drawing.polyline(&[start, gap - 0.7 * u * ahead], pen);
-        drawing.polyline(&[gap + 0.7 * u * ahead, head], pen);
-        for shift in [-0.7, 0.7] {
-            let middle = gap + shift * u * ahead;
-            drawing.polyline(
-                &[
-                    middle - 1.5 * u * side - 0.6 * u * ahead,
-                    middle + 1.5 * u * side + 0.6 * u * ahead,
-                ],
-                pen,
-            );
-        }
-    } else {
-        drawing.polyline(&[start, head], pen);
-    }
-    drawing.polygon(
-        &[tip, head + 1.2 * u * side, head - 1.2 * u * side],
-        Some(pen.ink),
-        None,
-    );
-}
-
-/// An upright eye of half width `r`.
-pub fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
-    let point = |x: f64, y: f64| at + r * DVec2::new(x, y);
-    let steps = vec![
-        Step::Move(point(-1.0, 0.0)),
-        Step::Cubic(point(-0.5, -0.78), point(0.5, -0.78), point(1.0, 0.0)),
-        Step::Cubic(point(0.5, 0.78), point(-0.5, 0.78), point(-1.0, 0.0)),
-        Step::Close,
-    ];
-    let rim = Pen::new(deep(colour, 0.35), 0.14 * r);
-    drawing.shapes.push(Shape {
-        steps,
-        fill: Some(Ink::new([255; 3])),
-        pen: Some(rim),
-        text: None,
-    });
-    drawing.circle(
-        at,
-        0.44 * r,
-        Some(Ink::new(colour)),
-        Some(Pen::new(deep(colour, 0.35), 0.08 * r)),
-    );
-    drawing.circle(at, 0.18 * r, Some(TEXT), None);
-}
-
-/// Name and distance beside the eye, on the first side where there is room, and at least `clear` layout units from it.
-fn label(
-    drawing: &mut Drawing,
-    page: &Page,
-    view: &View,
-    (at, clear): (DVec2, f64),
-    outward: DVec2,
-    far: bool,
-    taken: &mut Vec<Block>,
-) {
-    let u = page.u;
-    let name = page.style(4.4, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
-    let note = page.style(3.1, Face::Light, QUIET, Anchor::Middle);
-    let distance = length(view.eye.distance(view.look_at));
-    let line = if far {
-        format!("{distance} away")
-    } else {
-        distance
-    };
-    let half = DVec2::new(
-        width(&view.name, name.size, name.face).max(width(&line, note.size, note.face)) / 2.0,
-        4.3 * u,
-    );
-    let offset = |d: DVec2| d * (half + DVec2::new(clear + 0.8, clear - 0.8) * u);
-    // Above or below, whichever is further out, then the sides, then the corners.
-    let vertical = DVec2::new(0.0, if outward.y < -0.35 { -1.0 } else { 1.0 });
-    let horizontal = DVec2::new(if outward.x < 0.0 { -1.0 } else { 1.0 }, 0.0);
-    let ways = [
-        vertical,
-        horizontal,
-        -vertical,
-        -horizontal,
-        vertical + horizontal,
-        vertical - horizontal,
-        horizontal - vertical,
-    ];
-    let room = Block {
-        lo: DVec2::splat(3.0 * u),
-        hi: page.size() - 3.0 * u,
-    };
-    let inside = |b: &Block| b.lo.cmpge(room.lo).all() && b.hi.cmple(room.hi).all();
-    let blocks = ways.map(|d| Block::around(at + offset(d), half));
-    let block = blocks
-        .iter()
-        .find(|b| inside(b) && !taken.iter().any(|t| t.overlaps(b)))
-        .unwrap_or(&blocks[0])
-        .clone();
-    let middle = ((block.lo + block.hi) / 2.0).clamp(room.lo + half, room.hi - half);
-    drawing.text(
-        middle + DVec2::new(0.0, -0.4 * u),
-        &view.name,
-        TextStyle {
-            halo: Some(PAPER.fade(0.85)),
-            ..name
-        },
-    );
-    drawing.text(
-        middle + DVec2::new(0.0, 3.6 * u),
-        &line,
-        TextStyle {
-            halo: Some(PAPER.fade(0.85)),
-            ..note
-        },
-    );
-    taken.push(block);
-}
-
-/// A rectangle of the page that is in use.
-#[derive(Clone)]
-struct Block {
-    lo: DVec2,
-    hi: DVec2,
-}
-
-impl Block {
-    fn around(middle: DVec2, half: DVec2) -> Self {
-        Self {
-            lo: middle - half,
-            hi: middle + half,
-        }
-    }
-
-    fn overlaps(&self, other: &Block) -> bool {
-        self.lo.cmplt(other.hi).all() && other.lo.cmplt(self.hi).all()
-    }
 }

@@ -6,11 +6,13 @@
 
 pub mod curves;
 pub mod drawing;
+mod eyes;
 mod footer;
 mod layout;
 pub mod lettering;
 mod map;
 mod page;
+pub mod planning;
 pub mod raster;
 mod sight;
 mod svg;

@@ -22,10 +22,12 @@ const WIDTH: f64 = 210.0;
 const LEAST_HEIGHT: f64 = 297.0;
 /// The map's middle below the top edge.
 const MIDDLE: f64 = 129.0;
-/// Up to here fans are drawn, and eyes stand where they are, in radii of the forest.
-pub const RANGE: f64 = 1.24;
-/// Here stand the eyes that are further away.
-pub const RIM: f64 = 1.45;
+/// Of the plan and of panels: up to the first ranges are drawn, at the second stand the eyes that are further away. Radii of the forest.
+const EDGES: [f64; 2] = [1.24, 1.45];
+const PANEL_EDGES: [f64; 2] = [1.13, 1.31];
+/// Of the plan and of panels: widest name beside an eye, as a share of their width.
+const LABEL: f64 = 0.6;
+const PANEL_LABEL: f64 = 0.24;
 /// Top of the table of views, and the height of one of its rows.
 pub const TABLE: f64 = 240.0;
 pub const ROW: f64 = 6.0;
@@ -37,20 +39,59 @@ pub struct Page {
     /// Middle of the forest and radius of the circle around it, millimetres.
     pub centre: DVec2,
     pub radius: f64,
+    /// Up to here ranges are drawn, and here stand the eyes that are further away, from the middle, millimetres.
+    pub range: f64,
+    rim: f64,
     /// Layout unit in millimetres.
     pub u: f64,
+    /// Millimetres on the page for one of the scene.
+    scale: f64,
+    /// Where the forest's middle lies, and the corners of the room that labels keep to.
+    middle: DVec2,
+    pub room: [DVec2; 2],
+    /// Longer names are cut.
+    pub widest_label: f64,
     height: f64,
 }
 
 impl Page {
     pub fn new(facts: &Facts) -> Self {
-        let (centre, radius) = circle(facts.supports);
+        let outlines = facts.supports.iter().flat_map(outline);
+        let (centre, radius) = circle(outlines.copied());
         let rows = facts.views.len() as f64;
+        let u = radius / 60.0;
+        let height = LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW);
+        let edge = DVec2::splat(3.0 * u);
         Self {
             centre,
             radius,
-            u: radius / 60.0,
-            height: LEAST_HEIGHT.max(TABLE + ROW * rows + BELOW),
+            range: EDGES[0] * radius,
+            rim: EDGES[1] * radius,
+            u,
+            scale: 1.0,
+            middle: u * DVec2::new(WIDTH / 2.0, MIDDLE),
+            room: [edge, u * DVec2::new(WIDTH, height) - edge],
+            widest_label: LABEL * u * WIDTH,
+            height,
+        }
+    }
+
+    /// A map as part of a page of other measures: eyes and all within `room`, middle and radius of the forest in scene coordinates.
+    pub fn panel((centre, radius): (DVec2, f64), room: [DVec2; 2], u: f64) -> Self {
+        let (size, rim) = (room[1] - room[0], PANEL_EDGES[1] * radius);
+        // Half an eye stands beyond the rim.
+        let reach = (size.min_element() / 2.0 - 3.2 * u).max(u);
+        Self {
+            centre,
+            radius,
+            range: PANEL_EDGES[0] * radius,
+            rim,
+            u,
+            scale: reach / rim,
+            middle: (room[0] + room[1]) / 2.0,
+            room,
+            widest_label: PANEL_LABEL * size.x,
+            height: room[1].y / u,
         }
     }
 
@@ -72,7 +113,12 @@ impl Page {
     /// The page's place of a point of the scene, true scale.
     pub fn place(&self, p: DVec2) -> DVec2 {
         let d = p - self.centre;
-        self.at(WIDTH / 2.0, MIDDLE) + DVec2::new(d.x, -d.y)
+        self.middle + self.scale * DVec2::new(d.x, -d.y)
+    }
+
+    /// A length of the scene on the page.
+    pub fn scaled(&self, mm: f64) -> f64 {
+        self.scale * mm
     }
 
     pub fn outline(&self, points: &[DVec2]) -> Vec<DVec2> {
@@ -82,33 +128,22 @@ impl Page {
     /// Where an eye is drawn (scene coordinates), and whether that is nearer than it stands.
     pub fn stand(&self, eye: DVec2) -> (DVec2, bool) {
         let d = eye - self.centre;
-        let rim = RIM * self.radius;
-        if d.length() <= rim {
+        if d.length() <= self.rim {
             (eye, false)
         } else {
-            (self.centre + rim * d.normalize(), true)
+            (self.centre + self.rim * d.normalize(), true)
         }
     }
 
     /// Text of a size in layout units.
     pub fn style(&self, size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
-        TextStyle {
-            size: size * self.u,
-            ink,
-            face,
-            anchor,
-            halo: None,
-        }
+        TextStyle::new(size * self.u, face, ink, anchor)
     }
 }
 
-/// Middle and radius of a circle around all outlines; the unit is arbitrary if there are none.
-fn circle(supports: &[Support]) -> (DVec2, f64) {
-    let points: Vec<DVec2> = supports
-        .iter()
-        .flat_map(|s| outline(s).iter().copied())
-        .filter(|p| p.is_finite())
-        .collect();
+/// Middle and radius of a circle around all points; the unit is arbitrary if there are none.
+pub fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
+    let points: Vec<DVec2> = points.filter(|p| p.is_finite()).collect();
     let lo = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let hi = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let centre = (lo + hi) / 2.0;

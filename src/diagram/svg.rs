@@ -8,21 +8,29 @@ use std::fmt::Write as _;
 impl Drawing {
     /// The page as an SVG document. Letters are paths, each line of text labelled with what it says.
     pub fn svg(&self, title: &str) -> String {
-        let (w, h) = (number(self.size.x), number(self.size.y));
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
-        );
-        _ = writeln!(svg, "<title>{}</title>", escaped(title));
-        svg.push_str("<g stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+        let mut svg = opening(self.size, title);
         self.shapes
             .iter()
             .for_each(|shape| push_shape(&mut svg, shape));
-        svg.push_str("</g>\n</svg>\n");
+        svg.push_str(CLOSING);
         svg
     }
 }
 
-fn push_shape(svg: &mut String, shape: &Shape) {
+/// A document up to its first shape; [`CLOSING`] ends it.
+pub fn opening(size: DVec2, title: &str) -> String {
+    let (w, h) = (number(size.x), number(size.y));
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
+    );
+    _ = writeln!(svg, "<title>{}</title>", escaped(title));
+    svg.push_str("<g stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+    svg
+}
+
+pub const CLOSING: &str = "</g>\n</svg>\n";
+
+pub fn push_shape(svg: &mut String, shape: &Shape) {
     svg.push_str("<path");
     push_ink(svg, "fill", shape.fill);
     if let Some(pen) = shape.pen {
@@ -78,7 +86,7 @@ fn push_step(svg: &mut String, step: Step) {
 }
 
 /// A thousandth of a unit is enough for any printer; trailing zeros and -0 are left out.
-fn number(x: f64) -> String {
+pub fn number(x: f64) -> String {
     let text = format!("{:.3}", if x.is_finite() { x } else { 0.0 });
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" {

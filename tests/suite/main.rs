@@ -15,6 +15,8 @@ mod lights;
 mod meshes;
 mod numerics;
 mod planner;
+mod planning_pictures;
+mod plans;
 mod printability;
 mod properties;
 mod readme;

@@ -1,0 +1,88 @@
+//! Figures of a plan as people read them.
+
+use crate::planner::{Brief, Ended, Faults};
+
+/// A length: two digits that matter, none behind the point from 10 mm on. Endless is "any".
+pub fn millimetres(mm: f64) -> String {
+    if !mm.is_finite() {
+        return "any".into();
+    }
+    let digits = match mm.abs() {
+        x if x < 0.995 => 2,
+        x if x < 9.95 => 1,
+        _ => 0,
+    };
+    format!("{mm:.digits$} mm")
+}
+
+pub fn degrees(deg: f64) -> String {
+    if deg.is_finite() {
+        format!("{deg:.1}°")
+    } else {
+        "none".into()
+    }
+}
+
+/// A count with its thousands set apart.
+pub fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (k, c) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(c);
+    }
+    text
+}
+
+/// `1 pillar`, `1,200 pillars`.
+pub fn plural(n: u64, what: &str) -> String {
+    let tail = match (n, what) {
+        (1, "try") => "try",
+        (_, "try") => "tries",
+        _ => what,
+    };
+    let s = if n == 1 || what == "try" { "" } else { "s" };
+    format!("{} {tail}{s}", count(n))
+}
+
+/// The angle off at which errors are forecast: `10°`.
+pub fn angle(brief: &Brief) -> String {
+    let deg = (10.0 * brief.hidden_from_deg).round() / 10.0;
+    format!("{deg}°")
+}
+
+/// Every kind of fault that there is, worst first.
+pub fn faults(faults: &Faults) -> Option<String> {
+    let kinds = [
+        (faults.uncovered, "uncovered"),
+        (faults.foreign, "on other views' pillars"),
+        (faults.loose, "overlap missing at cuts"),
+        (faults.narrow, "missing of narrow strips"),
+        (faults.beyond_ends, "above or below pillars"),
+        (faults.in_sight, "in other views' sight"),
+        (faults.tight, "of gaps missing"),
+        (faults.outside, "outside the region"),
+        (faults.open, "of cuts open too fast"),
+    ];
+    let mut kinds: Vec<(f64, &str)> = kinds.into_iter().filter(|k| k.0 > 0.0).collect();
+    kinds.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut list: Vec<String> = kinds
+        .iter()
+        .map(|(mm, what)| format!("{} {what}", millimetres(*mm)))
+        .collect();
+    if faults.count > 0.0 {
+        let n = plural(faults.count as u64, "pillar");
+        list.push(format!("{n} too many or too few"));
+    }
+    (!list.is_empty()).then(|| list.join(", "))
+}
+
+pub fn ended(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Tries => "all tries made",
+        Ended::Converged => "ended as nothing better was found for long",
+        Ended::Stopped => "stopped before its end",
+    }
+}
