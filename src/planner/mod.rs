@@ -7,11 +7,13 @@ mod brief;
 pub mod forecast;
 pub mod search;
 pub mod skyline;
+mod stub;
 pub mod subject;
 pub mod survey;
 
 pub use brief::{Adjustment, Brief, Freedom, Matters, Pillar, Shape};
 pub use skyline::Run;
+pub use stub::{plan, repair};
 pub use survey::Faults;
 
 use glam::DVec2;
