@@ -1,0 +1,396 @@
+//! What is wanted of pillars that are to be found: `Auto(...)`, and lists that are to be mended.
+
+use super::checks::Standing;
+use super::defaults;
+use super::depths::{Wish, settled};
+use super::forest::Around;
+use super::raw::{List, RawAuto, RawFreedom, RawMatters, RawRange, RawShape, RawTolerance};
+use super::reader::{Reader, Span, error_at, short, warning_at};
+use super::region::Room;
+use super::sections::{Section, rounded, section};
+use super::spanned::Field;
+use super::supports::{Entry, entries, reach};
+use crate::planner::{Brief, Freedom, Matters, Pillar, Shape};
+use crate::scene::Printer;
+use crate::support::Layer;
+use glam::DVec2;
+use std::collections::BTreeMap;
+
+/// Pillars that stay, as they will be written.
+pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<Entry> {
+    match reader.given(&raw.fixed) {
+        Some((list, _)) => {
+            let entries = entries(reader, list, depth);
+            entries.into_iter().filter_map(as_written).collect()
+        }
+        None => Vec::new(),
+    }
+}
+
+/// The entry with its numbers rounded to what layout files hold.
+pub fn as_written(mut entry: Entry) -> Option<Entry> {
+    let place = |v| rounded(v, defaults::PLACE_DECIMALS);
+    entry.section = entry.section.with_lengths(|v| rounded(v, 9));
+    entry.outline = entry.section.outline().ok()?;
+    entry.height = place(entry.height).max(10f64.powi(-defaults::PLACE_DECIMALS));
+    for spot in &mut entry.spots {
+        spot.at = spot.at.to_array().map(place).into();
+    }
+    let layer = &mut entry.layer;
+    for length in [&mut layer.front, &mut layer.back, &mut layer.core] {
+        *length = rounded(*length, 9);
+    }
+    Some(entry)
+}
+
+/// The brief of an `Auto` at `span` whose pillars may stand in `region` besides the `fixed` ones.
+pub fn brief(
+    reader: &mut Reader,
+    (raw, span): (&RawAuto, &Span),
+    region: Vec<DVec2>,
+    fixed: &[Entry],
+    depth: &Wish,
+    around: &Around,
+) -> Brief {
+    let shapes = allowed(reader, raw, span, depth);
+    let gap = reader.length_from(&raw.gap, "gap", 0.0);
+    if let Some((gap, span)) = &gap {
+        narrow(reader, *gap, span, around.printer);
+    }
+    let tries = reader.count(&raw.tries, "tries", defaults::TRIES_ALLOWED);
+    let seconds = reader.within(&raw.seconds, "seconds", defaults::SECONDS_ALLOWED);
+    let hidden = reader.within(&raw.hidden_from, "hidden_from", defaults::HIDDEN_ALLOWED);
+    let standing = fixed.iter().map(|e| e.spots.len()).sum();
+    let mut brief = Brief {
+        region,
+        allowed: shapes.len(),
+        shapes,
+        gap: gap.map_or(defaults::GAP, |(v, _)| v),
+        count: count(reader, &raw.count, standing),
+        given: Vec::new(),
+        seed: (reader.count(&raw.seed, "seed", 0..=u32::MAX))
+            .map_or(defaults::SEED, |(v, _)| v)
+            .into(),
+        tries: tries.map_or(defaults::TRIES, |(v, _)| v).into(),
+        seconds: seconds.map_or(defaults::SECONDS, |(v, _)| v),
+        hidden_from_deg: hidden.map_or(defaults::HIDDEN_FROM, |(v, _)| v),
+        matters: matters(reader, &raw.matters),
+        tolerance_mm: tolerance(reader, &raw.eye_tolerance, around.view_count),
+        freedom: freedom(reader, &raw.models),
+    };
+    give(&mut brief, fixed, true);
+    brief
+}
+
+/// The brief of a list of pillars that are to be moved as little as can be, in `region`.
+pub fn mending(entries: &[Entry], region: Vec<DVec2>, around: &Around) -> Brief {
+    let standing: usize = entries.iter().map(|e| e.spots.len()).sum();
+    let mut brief = Brief {
+        region,
+        shapes: Vec::new(),
+        allowed: 0,
+        // What is printable as it stands need not move.
+        gap: defaults::NARROW_GAP_NOZZLES * around.printer.nozzle,
+        count: [1, (2 * standing).max(defaults::COUNT[1] as usize)],
+        given: Vec::new(),
+        seed: defaults::SEED.into(),
+        tries: defaults::TRIES.into(),
+        seconds: defaults::SECONDS,
+        hidden_from_deg: defaults::HIDDEN_FROM,
+        matters: defaults::MATTERS,
+        tolerance_mm: vec![0.0; around.view_count],
+        freedom: Freedom::NONE,
+    };
+    give(&mut brief, entries, false);
+    brief.allowed = brief.shapes.len();
+    brief
+}
+
+/// Adds the pillars of the entries to the given ones, and their shapes.
+fn give(brief: &mut Brief, entries: &[Entry], fixed: bool) {
+    let mut known = BTreeMap::<String, usize>::new();
+    for entry in entries {
+        let (height, layer) = (entry.height, entry.layer);
+        let shape = shape(&entry.section, entry.outline.clone(), [height; 2], layer);
+        let next = brief.shapes.len();
+        let index = *known
+            .entry(format!("{} {height} {layer:?}", shape.written))
+            .or_insert(next);
+        if index == next {
+            brief.shapes.push(shape);
+        }
+        brief.given.extend(entry.spots.iter().map(|spot| Pillar {
+            at: spot.at,
+            shape: index,
+            owner: None,
+            fixed,
+        }));
+    }
+}
+
+fn shape(section: &Section, outline: Vec<DVec2>, heights: [f64; 2], layer: Layer) -> Shape {
+    Shape {
+        reach: reach(&outline),
+        profile: outline,
+        round: section.is_round(),
+        heights,
+        layer,
+        written: section.written(),
+    }
+}
+
+/// What the checks want to know of the room that a brief leaves.
+pub fn room(brief: &Brief, span: &Span) -> Room {
+    let allowed = &brief.shapes[..brief.allowed];
+    let sample = |shape: &Shape| Standing {
+        name: format!("a pillar with `{}`", shape.written),
+        axis: DVec2::ZERO,
+        profile: shape.profile.clone(),
+        height: shape.heights[1],
+        reach: shape.reach,
+        round: shape.round,
+        span: span.clone(),
+    };
+    Room {
+        region: brief.region.clone(),
+        tops: allowed.iter().map(|s| s.heights[1]).fold(0.0, f64::max),
+        span: span.clone(),
+        samples: allowed.iter().map(sample).collect(),
+    }
+}
+
+/// The shapes that new pillars may have: every shape at every size.
+fn allowed(reader: &mut Reader, raw: &RawAuto, span: &Span, depth: &Wish) -> Vec<Shape> {
+    let heights = heights(reader, &raw.height);
+    let factors = factors(reader, &raw.sizes);
+    let mut allowed: Vec<Shape> = Vec::new();
+    for (section, span) in sections(reader, &raw.shapes, span) {
+        for factor in &factors {
+            let section = sized(&section, *factor);
+            let outline = match section.outline() {
+                Ok(outline) => outline,
+                Err(why) => {
+                    reader.error(&span, format!("at {factor} times its size {why}"));
+                    break;
+                }
+            };
+            let before = reader.problems.len();
+            let layer = settled(reader, &outline, section.is_round(), depth, &span);
+            let shape = shape(&section, outline, heights, layer);
+            if allowed.iter().all(|s| s.written != shape.written) {
+                allowed.push(shape);
+            }
+            // What is too deep for one size is so for the next.
+            if reader.problems.len() > before {
+                break;
+            }
+        }
+    }
+    allowed
+}
+
+fn sections(
+    reader: &mut Reader,
+    field: &Field<List<RawShape>>,
+    auto: &Span,
+) -> Vec<(Section, Span)> {
+    let Some((list, span)) = reader.given(field) else {
+        let round = Section::Round {
+            radius: defaults::PLANNED_RADIUS,
+            facets: defaults::ROUND_FACETS,
+        };
+        return vec![(round, auto.clone())];
+    };
+    if list.is_empty() || list.len() > defaults::MOST_SHAPES {
+        let text = format!(
+            "{} shapes; planned pillars have from 1 to {}",
+            list.len(),
+            defaults::MOST_SHAPES
+        );
+        reader.error(&span, text);
+        return Vec::new();
+    }
+    let mut sections = Vec::new();
+    for item in list {
+        let at = reader.span(item);
+        let Some(raw) = reader.value(item) else {
+            continue;
+        };
+        sections.extend(section(reader, raw, &at).map(|s| (s, at)));
+    }
+    sections
+}
+
+/// A shape at `factor` of its size.
+fn sized(section: &Section, factor: f64) -> Section {
+    section.with_lengths(|v| match factor {
+        1.0 => rounded(v, 9),
+        factor => rounded(factor * v, defaults::SIZE_DECIMALS),
+    })
+}
+
+/// At most [`defaults::SIZES`] factors from the smallest to the largest.
+fn factors(reader: &mut Reader, field: &Field<RawRange<f64>>) -> Vec<f64> {
+    let Some(([least, most], span)) = range(reader, field, "sizes") else {
+        return vec![1.0];
+    };
+    let allowed = defaults::SIZE_FACTORS;
+    if !allowed.contains(&least) || !allowed.contains(&most) {
+        let (from, to) = (allowed.start(), allowed.end());
+        let text = format!("`sizes` are factors on the shapes' lengths, from {from} to {to}");
+        reader.error(&span, text);
+        return vec![1.0];
+    }
+    if least == most {
+        return vec![least];
+    }
+    let last = (defaults::SIZES - 1) as f64;
+    let factor = |k: usize| least + (most - least) * k as f64 / last;
+    (0..defaults::SIZES).map(factor).collect()
+}
+
+fn heights(reader: &mut Reader, field: &Field<RawRange<f64>>) -> [f64; 2] {
+    let Some((heights, span)) = range(reader, field, "height") else {
+        return [defaults::PILLAR_HEIGHT; 2];
+    };
+    // As written: a layout file holds thousandths.
+    let least = 10f64.powi(-defaults::PLACE_DECIMALS);
+    let mut height = |v| reader.measured(v, "height", least, &span);
+    match (height(heights[0]), height(heights[1])) {
+        (Some(low), Some(high)) => [low, high].map(|v| rounded(v, defaults::PLACE_DECIMALS)),
+        _ => [defaults::PILLAR_HEIGHT; 2],
+    }
+}
+
+/// A range the right way round.
+fn range(
+    reader: &mut Reader,
+    field: &Field<RawRange<f64>>,
+    name: &str,
+) -> Option<([f64; 2], Span)> {
+    let (&RawRange([least, most]), span) = reader.given(field)?;
+    reader.finite(least, name, &span)?;
+    reader.finite(most, name, &span)?;
+    ordered(reader, [least, most], name, &span)?;
+    Some(([least, most], span))
+}
+
+fn ordered<T: PartialOrd + std::fmt::Display>(
+    reader: &mut Reader,
+    [least, most]: [T; 2],
+    name: &str,
+    span: &Span,
+) -> Option<()> {
+    if least <= most {
+        return Some(());
+    }
+    let problem = error_at(
+        span,
+        format!("`{name}` runs from {least} to {most}: the smaller number comes first"),
+    );
+    reader
+        .problems
+        .push(problem.help(format!("write ({most}, {least})")));
+    None
+}
+
+fn count(reader: &mut Reader, field: &Field<RawRange<u32>>, standing: usize) -> [usize; 2] {
+    let [fewest, most] = defaults::COUNT.map(|n| n as usize);
+    let default = [fewest, most.max(standing)];
+    let Some((&RawRange(range), span)) = reader.given(field) else {
+        return default;
+    };
+    if ordered(reader, range, "count", &span).is_none() {
+        return default;
+    }
+    let [fewest, most] = range.map(|n| n as usize);
+    let limit = defaults::MANY_PILLARS as usize;
+    if most == 0 || most > limit {
+        reader.error(
+            &span,
+            format!("`count` ends at {most}; a planned forest has from 1 to {limit} pillars"),
+        );
+    } else if standing > most {
+        reader.error(
+            &span,
+            format!("{standing} pillars are `fixed`, but the `count` ends at {most}"),
+        );
+    }
+    [fewest, most]
+}
+
+/// Warns of a gap that no printer leaves open.
+fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
+    let least = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
+    if gap < least {
+        let text = format!(
+            "`gap` is {} mm: gaps below {} mm fuse when printed",
+            short(gap),
+            short(least)
+        );
+        let help = "leave more room, or change `printer: (nozzle: ...)`";
+        reader.problems.push(warning_at(span, text).help(help));
+    }
+}
+
+/// One number for every view.
+fn tolerance(reader: &mut Reader, field: &Field<RawTolerance>, views: usize) -> Vec<f64> {
+    let name = "eye_tolerance";
+    let of = |reader: &mut Reader, number: &super::spanned::Spanned<f64>| {
+        let span = reader.span(number);
+        let value = *reader.value(number)?;
+        reader.measured(value, name, 0.0, &span)
+    };
+    match reader.given(field) {
+        None => vec![0.0; views],
+        Some((RawTolerance::All(one), _)) => vec![of(reader, one).unwrap_or(0.0); views],
+        Some((RawTolerance::Each(list), span)) => {
+            let Some(list) = reader.value(list) else {
+                return vec![0.0; views];
+            };
+            if list.len() != views {
+                let text = format!(
+                    "`{name}` has {} numbers, and the scene {views} views",
+                    list.len()
+                );
+                let help = "one number for all views, or a list with one for each, in order";
+                reader.problems.push(error_at(&span, text).help(help));
+            }
+            let numbers = list.iter().take(views);
+            let mut found: Vec<f64> = numbers.map(|n| of(reader, n).unwrap_or(0.0)).collect();
+            found.resize(views, 0.0);
+            found
+        }
+    }
+}
+
+fn matters(reader: &mut Reader, field: &Field<RawMatters>) -> Matters {
+    let Some((raw, _)) = reader.given(field) else {
+        return defaults::MATTERS;
+    };
+    let mut weight = |field: &Field<f64>, name: &str, default: f64| {
+        let found = reader.within(field, name, defaults::WEIGHTS);
+        found.map_or(default, |(v, _)| v)
+    };
+    let default = defaults::MATTERS;
+    Matters {
+        camouflage: weight(&raw.camouflage, "camouflage", default.camouflage),
+        tolerance: weight(&raw.tolerance, "tolerance", default.tolerance),
+        pillars: weight(&raw.pillars, "pillars", default.pillars),
+        spread: weight(&raw.spread, "spread", default.spread),
+    }
+}
+
+fn freedom(reader: &mut Reader, field: &Field<RawFreedom>) -> Freedom {
+    let Some((raw, _)) = reader.given(field) else {
+        return Freedom::NONE;
+    };
+    let turn = reader.within(&raw.turn, "turn", 0.0..=defaults::MOST_TURN);
+    let scale = reader.within(&raw.scale, "scale", 1.0..=defaults::MOST_SCALE);
+    let shift = reader.length_from(&raw.shift, "shift", 0.0);
+    Freedom {
+        turn: turn.map_or(0.0, |(v, _)| v.to_radians()),
+        scale: scale.map_or(1.0, |(v, _)| v),
+        shift: shift.map_or(0.0, |(v, _)| v),
+    }
+}
