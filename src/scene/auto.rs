@@ -43,7 +43,8 @@ pub fn as_written(mut entry: Entry) -> Option<Entry> {
     Some(entry)
 }
 
-/// The brief of an `Auto` at `span` whose pillars may stand in `region` besides the `fixed` ones.
+/// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its
+/// pillars may stand in `region` besides the `fixed` ones.
 pub fn brief(
     reader: &mut Reader,
     (raw, span): (&RawAuto, &Span),
@@ -51,8 +52,8 @@ pub fn brief(
     fixed: &[Entry],
     depth: &Wish,
     around: &Around,
-) -> Brief {
-    let shapes = allowed(reader, raw, span, depth);
+) -> (Brief, Vec<Span>) {
+    let (shapes, spans) = allowed(reader, raw, span, depth);
     let gap = reader.length_from(&raw.gap, "gap", 0.0);
     if let Some((gap, span)) = &gap {
         narrow(reader, *gap, span, around.printer);
@@ -79,7 +80,7 @@ pub fn brief(
         freedom: freedom(reader, &raw.models),
     };
     give(&mut brief, fixed, true);
-    brief
+    (brief, spans)
 }
 
 /// The brief of a list of pillars that are to be moved as little as can be, in `region`.
@@ -139,10 +140,10 @@ fn shape(section: &Section, outline: Vec<DVec2>, heights: [f64; 2], layer: Layer
     }
 }
 
-/// What the checks want to know of the room that a brief leaves.
-pub fn room(brief: &Brief, span: &Span) -> Room {
+/// What the checks want to know of a brief whose region stands at `span`, and its shapes at `spans`.
+pub fn room(brief: &Brief, span: &Span, spans: &[Span]) -> Room {
     let allowed = &brief.shapes[..brief.allowed];
-    let sample = |shape: &Shape| Standing {
+    let sample = |(shape, span): (&Shape, &Span)| Standing {
         name: format!("a pillar with `{}`", shape.written),
         axis: DVec2::ZERO,
         profile: shape.profile.clone(),
@@ -155,15 +156,20 @@ pub fn room(brief: &Brief, span: &Span) -> Room {
         region: brief.region.clone(),
         tops: allowed.iter().map(|s| s.heights[1]).fold(0.0, f64::max),
         span: span.clone(),
-        samples: allowed.iter().map(sample).collect(),
+        samples: allowed.iter().zip(spans).map(sample).collect(),
     }
 }
 
-/// The shapes that new pillars may have: every shape at every size.
-fn allowed(reader: &mut Reader, raw: &RawAuto, span: &Span, depth: &Wish) -> Vec<Shape> {
+/// The shapes that new pillars may have, and their places: every shape at every size.
+fn allowed(
+    reader: &mut Reader,
+    raw: &RawAuto,
+    span: &Span,
+    depth: &Wish,
+) -> (Vec<Shape>, Vec<Span>) {
     let heights = heights(reader, &raw.height);
     let factors = factors(reader, &raw.sizes);
-    let mut allowed: Vec<Shape> = Vec::new();
+    let (mut allowed, mut spans) = (Vec::<Shape>::new(), Vec::new());
     for (section, span) in sections(reader, &raw.shapes, span) {
         for factor in &factors {
             let section = sized(&section, *factor);
@@ -179,6 +185,7 @@ fn allowed(reader: &mut Reader, raw: &RawAuto, span: &Span, depth: &Wish) -> Vec
             let shape = shape(&section, outline, heights, layer);
             if allowed.iter().all(|s| s.written != shape.written) {
                 allowed.push(shape);
+                spans.push(span.clone());
             }
             // What is too deep for one size is so for the next.
             if reader.problems.len() > before {
@@ -186,7 +193,7 @@ fn allowed(reader: &mut Reader, raw: &RawAuto, span: &Span, depth: &Wish) -> Vec
             }
         }
     }
-    allowed
+    (allowed, spans)
 }
 
 fn sections(

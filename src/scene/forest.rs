@@ -122,9 +122,9 @@ fn planned(
             region
         }
     };
-    let brief = auto::brief(reader, (auto, span), region, &fixed, &depth, around);
+    let (brief, spans) = auto::brief(reader, (auto, span), region, &fixed, &depth, around);
     // Without a region there is an error already, and nothing to check.
-    let room = (!brief.region.is_empty()).then(|| auto::room(&brief, &room_span));
+    let room = (!brief.region.is_empty()).then(|| auto::room(&brief, &room_span, &spans));
     Forest {
         supports,
         brief: Some(brief),

@@ -89,8 +89,8 @@ fn head(scene: &Scene, planned: &Planned) -> String {
     format!(
         "\
 // A layout of \"{title}\": {pillars} pillars for {views} views, {made}.
-// A scene in the same folder takes it up with   pillars: File(\"layout.ron\")   and builds the same forest on any machine.
-// Entries are written as in scenes, and may be edited: `pillarforest check` tells whether they still do.
+// A scene takes it up with   pillars: File(\"layout.ron\")   by its path from the scene's folder.
+// Entries are as in scenes and may be edited; `pillarforest check` tells what then is wrong, `pillarforest repair` mends it.
 "
     )
 }

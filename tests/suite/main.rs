@@ -14,6 +14,7 @@ mod hostile;
 mod lights;
 mod meshes;
 mod numerics;
+mod planning_scene;
 mod printability;
 mod properties;
 mod readme;

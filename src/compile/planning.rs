@@ -1,0 +1,83 @@
+//! Layouts: pillars found or mended for a scene, as a scene to build and as files to keep.
+
+use super::OutputFile;
+use super::files::{file, plan_files};
+use crate::diag::Diagnostic;
+use crate::planner::{self, Brief, Ended, Planned, Watch, Worth};
+use crate::scene::{Scene, laid_out, layout_text};
+
+/// Name of the layout file among the outputs.
+pub const LAYOUT: &str = "layout.ron";
+/// A view whose models are covered by less than this misses something that can be seen.
+const COVERED: f64 = 0.9995;
+
+/// Finds the pillars of a scene that wants them found: the scene with them, and the plan.
+///
+/// # Errors
+/// Which limit binds; or that the scene lists its pillars.
+pub fn planned(scene: &Scene, watch: Watch) -> Result<(Scene, Planned), Vec<Diagnostic>> {
+    let Some(brief) = &scene.brief else {
+        return Err(vec![
+            Diagnostic::error("the scene lists its pillars: there is nothing to plan")
+                .help("to have them found, write `pillars: Auto()`; for this run only: --set \"pillars=Auto()\"")
+                .help("`pillarforest repair` mends a list with the fewest moves"),
+        ]);
+    };
+    let plan = planner::plan(&scene.views, brief, watch)?;
+    Ok((laid_out(scene, &plan), plan))
+}
+
+/// Mends the pillars of a scene that was [read for that](crate::scene::resolve_to_mend): the scene with them, and what was done.
+///
+/// # Errors
+/// What cannot be mended; or that the scene has no pillars yet.
+pub fn repaired(scene: &Scene, watch: Watch) -> Result<(Scene, Planned), Vec<Diagnostic>> {
+    let listed = |b: &&Brief| !b.given.is_empty() && b.given.iter().all(|p| !p.fixed);
+    let Some(brief) = scene.brief.as_ref().filter(listed) else {
+        return Err(vec![
+            Diagnostic::error("the scene has its pillars found: there is no list to mend")
+                .help("`pillarforest plan` finds them and writes the list"),
+        ]);
+    };
+    let plan = planner::repair(&scene.views, brief, watch)?;
+    Ok((laid_out(scene, &plan), plan))
+}
+
+/// The files of a plan: `scene` as it was read, `laid` with the plan's pillars.
+pub fn plan_outputs(scene: &Scene, laid: &Scene, plan: &Planned) -> Vec<OutputFile> {
+    let mut files = vec![layout_file(scene, plan)];
+    files.extend(plan_files(laid, &[]));
+    files
+}
+
+pub fn layout_file(scene: &Scene, plan: &Planned) -> OutputFile {
+    file(LAYOUT, layout_text(scene, plan).into_bytes())
+}
+
+/// What of a plan does not hold.
+pub fn shortfalls(scene: &Scene, plan: &Planned) -> Vec<Diagnostic> {
+    let views = scene.views.iter().zip(&plan.worth);
+    views.filter_map(|(v, w)| shortfall(&v.name, w)).collect()
+}
+
+fn shortfall(view: &str, worth: &Worth) -> Option<Diagnostic> {
+    let missing = (worth.coverage < COVERED).then(|| {
+        let part = 100.0 * (1.0 - worth.coverage);
+        format!("{part:.2} % of its models meet no pillar of its own")
+    });
+    let conflicts = (worth.conflicts > 0).then(|| format!("{} conflicts", worth.conflicts));
+    let found: Vec<String> = missing.into_iter().chain(conflicts).collect();
+    let text = format!("view \"{view}\": {}", found.join(", "));
+    let help = "more `tries`, a larger `region`, slimmer pillars or smaller models";
+    (!found.is_empty()).then(|| Diagnostic::error(text).help(help))
+}
+
+/// Says so if time ended the search.
+pub fn cut_short(brief: &Brief, plan: &Planned) -> Option<Diagnostic> {
+    let text = format!(
+        "the search for pillars ended after {} s and {} of {} tries: on another machine it may end elsewhere",
+        brief.seconds, plan.tries, brief.tries
+    );
+    let help = format!("keep {LAYOUT} and include it, or ask for fewer `tries`");
+    (plan.ended == Ended::Stopped).then(|| Diagnostic::warning(text).help(help))
+}
