@@ -157,10 +157,10 @@ pub struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
     pub scene: PathBuf,
-    /// Where to look first for model files, by file name [env: PILLARFOREST_MODELS]
+    /// Where to look first for models and layouts, by file name [env: PILLARFOREST_MODELS]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub models: Option<PathBuf>,
-    /// Let the scene name model files outside of its folder: absolute, by `..` or through links
+    /// Let the scene name files outside of its folder: absolute, by `..` or through links
     #[arg(long)]
     pub allow_outside: bool,
     /// Change a value of the scene for this run: pillars[0].height=80, views[front].eye=(0,-300,60), energy=Curvature()

@@ -161,7 +161,7 @@ fn table(scene: &Scene, plan: &Planned) -> String {
 /// Every pillar that was moved, added or removed.
 fn changes(scene: &Scene, laid: &Scene, plan: &Planned) -> String {
     let line = |change: &Change| {
-        let given = change.given.and_then(|i| Some(place(scene, i)?));
+        let given = change.given.and_then(|i| place(scene, i));
         Some(match (given, change.to) {
             (Some((name, from)), Some(to)) => format!(
                 "moved {name} by {:.1} mm to ({:.3}, {:.3})\n",

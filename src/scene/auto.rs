@@ -1,17 +1,17 @@
 //! What is wanted of pillars that are to be found: `Auto(...)`, and lists that are to be mended.
 
+use super::aims::{count, freedom, matters, narrow, range, tolerance};
 use super::checks::Standing;
 use super::defaults;
 use super::depths::{Wish, settled};
 use super::forest::Around;
-use super::raw::{List, RawAuto, RawFreedom, RawMatters, RawRange, RawShape, RawTolerance};
-use super::reader::{Reader, Span, error_at, short, warning_at};
+use super::raw::{List, RawAuto, RawRange, RawShape};
+use super::reader::{Reader, Span};
 use super::region::Room;
 use super::sections::{Section, rounded, section};
 use super::spanned::Field;
 use super::supports::{Entry, entries, reach};
-use crate::planner::{Brief, Freedom, Matters, Pillar, Shape};
-use crate::scene::Printer;
+use crate::planner::{Brief, Freedom, Pillar, Shape};
 use crate::support::Layer;
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -21,30 +21,41 @@ pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<Entry> {
     match reader.given(&raw.fixed) {
         Some((list, _)) => {
             let entries = entries(reader, list, depth);
-            entries.into_iter().filter_map(as_written).collect()
+            entries.into_iter().map(as_written).collect()
         }
         None => Vec::new(),
     }
 }
 
 /// The entry with its numbers rounded to what layout files hold.
-pub fn as_written(mut entry: Entry) -> Option<Entry> {
+pub fn as_written(mut entry: Entry) -> Entry {
+    let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
     let place = |v| rounded(v, defaults::PLACE_DECIMALS);
-    entry.section = entry.section.with_lengths(|v| rounded(v, 9));
-    entry.outline = entry.section.outline().ok()?;
+    let section = entry.section.with_lengths(length);
+    if let Ok(outline) = section.outline() {
+        (entry.section, entry.outline) = (section, outline);
+    }
     entry.height = place(entry.height).max(10f64.powi(-defaults::PLACE_DECIMALS));
     for spot in &mut entry.spots {
         spot.at = spot.at.to_array().map(place).into();
     }
-    let layer = &mut entry.layer;
-    for length in [&mut layer.front, &mut layer.back, &mut layer.core] {
-        *length = rounded(*length, 9);
-    }
-    Some(entry)
+    entry.layer = layer_as_written(entry.layer);
+    entry
 }
 
-/// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its
-/// pillars may stand in `region` besides the `fixed` ones.
+/// A layer as layout files hold it.
+pub fn layer_as_written(layer: Layer) -> Layer {
+    let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
+    Layer {
+        front: length(layer.front),
+        back: length(layer.back),
+        core: length(layer.core),
+        ..layer
+    }
+}
+
+/// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its pillars may stand in `region` besides the `fixed`
+/// ones.
 pub fn brief(
     reader: &mut Reader,
     (raw, span): (&RawAuto, &Span),
@@ -231,7 +242,7 @@ fn sections(
 /// A shape at `factor` of its size.
 fn sized(section: &Section, factor: f64) -> Section {
     section.with_lengths(|v| match factor {
-        1.0 => rounded(v, 9),
+        1.0 => rounded(v, defaults::LENGTH_DECIMALS),
         factor => rounded(factor * v, defaults::SIZE_DECIMALS),
     })
 }
@@ -266,138 +277,5 @@ fn heights(reader: &mut Reader, field: &Field<RawRange<f64>>) -> [f64; 2] {
     match (height(heights[0]), height(heights[1])) {
         (Some(low), Some(high)) => [low, high].map(|v| rounded(v, defaults::PLACE_DECIMALS)),
         _ => [defaults::PILLAR_HEIGHT; 2],
-    }
-}
-
-/// A range the right way round.
-fn range(
-    reader: &mut Reader,
-    field: &Field<RawRange<f64>>,
-    name: &str,
-) -> Option<([f64; 2], Span)> {
-    let (&RawRange([least, most]), span) = reader.given(field)?;
-    reader.finite(least, name, &span)?;
-    reader.finite(most, name, &span)?;
-    ordered(reader, [least, most], name, &span)?;
-    Some(([least, most], span))
-}
-
-fn ordered<T: PartialOrd + std::fmt::Display>(
-    reader: &mut Reader,
-    [least, most]: [T; 2],
-    name: &str,
-    span: &Span,
-) -> Option<()> {
-    if least <= most {
-        return Some(());
-    }
-    let problem = error_at(
-        span,
-        format!("`{name}` runs from {least} to {most}: the smaller number comes first"),
-    );
-    reader
-        .problems
-        .push(problem.help(format!("write ({most}, {least})")));
-    None
-}
-
-fn count(reader: &mut Reader, field: &Field<RawRange<u32>>, standing: usize) -> [usize; 2] {
-    let [fewest, most] = defaults::COUNT.map(|n| n as usize);
-    let default = [fewest, most.max(standing)];
-    let Some((&RawRange(range), span)) = reader.given(field) else {
-        return default;
-    };
-    if ordered(reader, range, "count", &span).is_none() {
-        return default;
-    }
-    let [fewest, most] = range.map(|n| n as usize);
-    let limit = defaults::MANY_PILLARS as usize;
-    if most == 0 || most > limit {
-        reader.error(
-            &span,
-            format!("`count` ends at {most}; a planned forest has from 1 to {limit} pillars"),
-        );
-    } else if standing > most {
-        reader.error(
-            &span,
-            format!("{standing} pillars are `fixed`, but the `count` ends at {most}"),
-        );
-    }
-    [fewest, most]
-}
-
-/// Warns of a gap that no printer leaves open.
-fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
-    let least = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
-    if gap < least {
-        let text = format!(
-            "`gap` is {} mm: gaps below {} mm fuse when printed",
-            short(gap),
-            short(least)
-        );
-        let help = "leave more room, or change `printer: (nozzle: ...)`";
-        reader.problems.push(warning_at(span, text).help(help));
-    }
-}
-
-/// One number for every view.
-fn tolerance(reader: &mut Reader, field: &Field<RawTolerance>, views: usize) -> Vec<f64> {
-    let name = "eye_tolerance";
-    let of = |reader: &mut Reader, number: &super::spanned::Spanned<f64>| {
-        let span = reader.span(number);
-        let value = *reader.value(number)?;
-        reader.measured(value, name, 0.0, &span)
-    };
-    match reader.given(field) {
-        None => vec![0.0; views],
-        Some((RawTolerance::All(one), _)) => vec![of(reader, one).unwrap_or(0.0); views],
-        Some((RawTolerance::Each(list), span)) => {
-            let Some(list) = reader.value(list) else {
-                return vec![0.0; views];
-            };
-            if list.len() != views {
-                let text = format!(
-                    "`{name}` has {} numbers, and the scene {views} views",
-                    list.len()
-                );
-                let help = "one number for all views, or a list with one for each, in order";
-                reader.problems.push(error_at(&span, text).help(help));
-            }
-            let numbers = list.iter().take(views);
-            let mut found: Vec<f64> = numbers.map(|n| of(reader, n).unwrap_or(0.0)).collect();
-            found.resize(views, 0.0);
-            found
-        }
-    }
-}
-
-fn matters(reader: &mut Reader, field: &Field<RawMatters>) -> Matters {
-    let Some((raw, _)) = reader.given(field) else {
-        return defaults::MATTERS;
-    };
-    let mut weight = |field: &Field<f64>, name: &str, default: f64| {
-        let found = reader.within(field, name, defaults::WEIGHTS);
-        found.map_or(default, |(v, _)| v)
-    };
-    let default = defaults::MATTERS;
-    Matters {
-        camouflage: weight(&raw.camouflage, "camouflage", default.camouflage),
-        tolerance: weight(&raw.tolerance, "tolerance", default.tolerance),
-        pillars: weight(&raw.pillars, "pillars", default.pillars),
-        spread: weight(&raw.spread, "spread", default.spread),
-    }
-}
-
-fn freedom(reader: &mut Reader, field: &Field<RawFreedom>) -> Freedom {
-    let Some((raw, _)) = reader.given(field) else {
-        return Freedom::NONE;
-    };
-    let turn = reader.within(&raw.turn, "turn", 0.0..=defaults::MOST_TURN);
-    let scale = reader.within(&raw.scale, "scale", 1.0..=defaults::MOST_SCALE);
-    let shift = reader.length_from(&raw.shift, "shift", 0.0);
-    Freedom {
-        turn: turn.map_or(0.0, |(v, _)| v.to_radians()),
-        scale: scale.map_or(1.0, |(v, _)| v),
-        shift: shift.map_or(0.0, |(v, _)| v),
     }
 }

@@ -41,6 +41,8 @@ pub const SIZES: usize = 5;
 pub const SIZE_DECIMALS: i32 = 2;
 /// Places and heights are written with this many.
 pub const PLACE_DECIMALS: i32 = 3;
+/// Other lengths and angles with this many, so that what was given in inches or radians stays what it was but for a rounding.
+pub const LENGTH_DECIMALS: i32 = 9;
 /// Room between solids: enough that 0.4 mm nozzles leave a gap and not a row of bridges.
 pub const GAP: f64 = 0.5;
 pub const COUNT: [u32; 2] = [1, 200];

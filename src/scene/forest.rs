@@ -145,7 +145,7 @@ impl Forest {
     ) {
         let mend = around.purpose == Purpose::Mend;
         let entries = match mend {
-            true => entries.into_iter().filter_map(as_written).collect(),
+            true => entries.into_iter().map(as_written).collect(),
             false => entries,
         };
         self.supports = Supports::of(entries.iter().map(Entry::row));

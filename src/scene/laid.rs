@@ -2,6 +2,7 @@
 //!
 //! Both come from the same rounded numbers, so that the file reads back as the very pillars of the scene.
 
+use super::auto::layer_as_written;
 use super::checks::Slab;
 use super::defaults;
 use super::layout::Spot;
@@ -9,9 +10,9 @@ use super::placing;
 use super::sections::{point, rounded};
 use super::supports::{Row, Supports, UNNAMED};
 use crate::diag::escaped;
-use crate::planner::{Adjustment, Planned, Shape};
+use crate::planner::{Adjustment, Pillar, Planned, Shape};
 use crate::scene::Scene;
-use crate::support::{Datum, Layer, Support, SupportKind};
+use crate::support::{Datum, Support, SupportKind};
 use glam::DVec2;
 use std::fmt::Write;
 
@@ -33,7 +34,7 @@ pub fn laid_out(scene: &Scene, planned: &Planned) -> Scene {
         outline: &group.shape.profile,
         round: group.shape.round,
         height: group.height,
-        layer: as_written(group.shape.layer),
+        layer: layer_as_written(group.shape.layer),
         spots: &group.spots,
     }));
     supports.base = scene.supports.iter().find_map(slab);
@@ -63,7 +64,10 @@ pub fn layout_text(scene: &Scene, planned: &Planned) -> String {
         out.push_str("    adjust: [\n");
         let views = scene.views.iter().zip(&adjusted);
         for (view, a) in views.filter(|(_, a)| **a != Adjustment::NONE) {
-            let (turn, shift) = (rounded(a.turn.to_degrees(), 9), point(&a.shift));
+            let (turn, shift) = (
+                rounded(a.turn.to_degrees(), KEPT_DECIMALS[0]),
+                point(&a.shift),
+            );
             // Writing to a String cannot fail.
             let _ = writeln!(
                 out,
@@ -88,7 +92,7 @@ fn head(scene: &Scene, planned: &Planned) -> String {
     };
     format!(
         "\
-// A layout of \"{title}\": {pillars} pillars for {views} views, {made}.
+// A layout of \"{title}\" (views: {views}, pillars: {pillars}), {made}.
 // A scene takes it up with   pillars: File(\"layout.ron\")   by its path from the scene's folder.
 // Entries are as in scenes and may be edited; `pillarforest check` tells what then is wrong, `pillarforest repair` mends it.
 "
@@ -96,7 +100,7 @@ fn head(scene: &Scene, planned: &Planned) -> String {
 }
 
 fn entry(group: &Group) -> String {
-    let layer = as_written(group.shape.layer);
+    let layer = layer_as_written(group.shape.layer);
     let from = match layer.datum {
         Datum::AxisPlane => "Axis",
         Datum::Surface => "Surface",
@@ -123,15 +127,14 @@ fn entry(group: &Group) -> String {
     )
 }
 
-/// Fixed pillars in their order, then those of every view, then those that nobody sees. A plan's pillars in the order in which
-/// files and scenes number them.
+/// A plan's pillars in the order in which files and scenes number them: fixed ones in their order, then those of every view, then
+/// those that nobody sees.
 fn groups<'a>(scene: &'a Scene, planned: &Planned) -> Vec<Group<'a>> {
     let Some(brief) = &scene.brief else {
         return Vec::new();
     };
     let given = scene.supports.iter().zip(&brief.given);
     let mut fixed_names = given.filter(|(_, g)| g.fixed).map(|(s, _)| stem(&s.name));
-    let place = |v| rounded(v, defaults::PLACE_DECIMALS);
     let mut fixed: Vec<Group> = Vec::new();
     let mut found: Vec<(usize, Group)> = Vec::new();
     for (pillar, height) in planned.pillars.iter().zip(&planned.heights) {
@@ -139,35 +142,28 @@ fn groups<'a>(scene: &'a Scene, planned: &Planned) -> Vec<Group<'a>> {
             continue;
         };
         let view = pillar.owner.and_then(|v| Some((v, scene.views.get(v)?)));
-        let name = match pillar.fixed {
-            true => fixed_names.next().unwrap_or(UNNAMED),
-            false => view.map_or(UNNAMED, |(_, view)| view.name.as_str()),
-        };
-        let group = Group {
-            name,
-            shape,
-            height: place(*height),
-            fixed: pillar.fixed,
-            spots: vec![Spot {
-                at: pillar.at.to_array().map(place).into(),
-                span: 0..0,
-            }],
-        };
-        let alike = |g: &Group| {
-            g.name == group.name && std::ptr::eq(g.shape, shape) && g.height == group.height
-        };
-        // Fixed ones only join the last group: their order gives their numbers.
-        let order = view.map_or(usize::MAX, |(v, _)| v);
-        let known = match pillar.fixed {
-            true => fixed.last_mut().filter(|g| alike(g)),
-            false => (found.iter_mut())
-                .find(|(o, g)| *o == order && alike(g))
-                .map(|(_, g)| g),
-        };
-        match known {
-            Some(known) => known.spots.extend(group.spots),
-            None if pillar.fixed => fixed.push(group),
-            None => found.push((order, group)),
+        if pillar.fixed {
+            let fresh = Group::new(
+                fixed_names.next().unwrap_or(UNNAMED),
+                shape,
+                pillar,
+                *height,
+            );
+            // They only join the last group: their order gives their numbers.
+            match fixed.last_mut().filter(|g| g.is_like(&fresh)) {
+                Some(last) => last.spots.extend(fresh.spots),
+                None => fixed.push(fresh),
+            }
+        } else {
+            let (order, name) = view.map_or((usize::MAX, UNNAMED), |(v, view)| (v, &view.name));
+            let fresh = Group::new(name, shape, pillar, *height);
+            match found
+                .iter_mut()
+                .find(|(o, g)| *o == order && g.is_like(&fresh))
+            {
+                Some((_, known)) => known.spots.extend(fresh.spots),
+                None => found.push((order, fresh)),
+            }
         }
     }
     found.sort_by_key(|(order, _)| *order);
@@ -175,20 +171,30 @@ fn groups<'a>(scene: &'a Scene, planned: &Planned) -> Vec<Group<'a>> {
     fixed
 }
 
+impl<'a> Group<'a> {
+    /// A group of one pillar, its numbers rounded.
+    fn new(name: &'a str, shape: &'a Shape, pillar: &Pillar, height: f64) -> Self {
+        let place = |v| rounded(v, defaults::PLACE_DECIMALS);
+        let at = pillar.at.to_array().map(place).into();
+        Self {
+            name,
+            shape,
+            height: place(height),
+            fixed: pillar.fixed,
+            spots: vec![Spot { at, span: 0..0 }],
+        }
+    }
+
+    fn is_like(&self, other: &Self) -> bool {
+        self.name == other.name
+            && std::ptr::eq(self.shape, other.shape)
+            && self.height == other.height
+    }
+}
+
 /// The name of the entry that a pillar came from: without its number.
 fn stem(name: &str) -> &str {
     name.rsplit_once('-').map_or(UNNAMED, |(stem, _)| stem)
-}
-
-/// Lengths as files hold them.
-fn as_written(layer: Layer) -> Layer {
-    let length = |v| rounded(v, 9);
-    Layer {
-        front: length(layer.front),
-        back: length(layer.back),
-        core: length(layer.core),
-        ..layer
-    }
 }
 
 fn slab(support: &Support) -> Option<Slab> {
@@ -208,7 +214,7 @@ fn slab(support: &Support) -> Option<Slab> {
 /// micrometre or two.
 const PLANNED_DECIMALS: [i32; 3] = [3, 5, 3];
 /// Those of one that a file gave: as many as survive the way to radians and back.
-const KEPT_DECIMALS: [i32; 3] = [9; 3];
+const KEPT_DECIMALS: [i32; 3] = [defaults::LENGTH_DECIMALS; 3];
 
 fn tidy(a: &Adjustment, [turn, scale, shift]: [i32; 3]) -> Adjustment {
     Adjustment {

@@ -1,5 +1,6 @@
 //! Scenes: the user's RON text (`raw`) and what it means (`resolve`), in which nothing is left to decide.
 
+mod aims;
 mod auto;
 mod bases;
 mod checks;

@@ -152,6 +152,7 @@ pub enum RawPlace {
 
 /// The pillars of a scene: listed, to be found, or kept in a file of their own.
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // one per scene
 pub enum RawForest {
     List(Spanned<List<RawPillars>>),
     Choice(Spanned<RawForestChoice>),
@@ -165,6 +166,7 @@ pub enum RawForestChoice {
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per scene
 pub enum RawRegion {
     Disc(RawDiscRegion),
     Rectangle(RawRectangleRegion),

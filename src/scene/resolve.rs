@@ -141,7 +141,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
         .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
     let (supports, brief) = forest.finished();
-    sound.then(|| Scene {
+    sound.then_some(Scene {
         title,
         views,
         supports,

@@ -600,6 +600,51 @@ fn a_plan_written_down_reads_back_as_itself() {
 }
 
 #[test]
+fn no_prefix_of_an_auto_crashes() {
+    let whole = text(
+        "pillars: Auto(region: Disc(radius: 60), shapes: [Round(radius: 4)], sizes: (1, 1.2), height: (60, 90), \
+         count: (3, 9), fixed: [(shape: Round(radius: 3), places: At([(0, 0)]))], eye_tolerance: [1, 2])",
+    );
+    assert!(scene::resolve(&whole, &read(b"")).is_ok());
+    for end in 0..whole.len() {
+        assert!(scene::resolve(&whole[..end], &read(b"")).is_err(), "{end}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn layouts_outside_of_the_scenes_folder_are_refused() {
+    let top = tempfile::tempdir().unwrap();
+    let inside = top.path().join("scene");
+    fs::create_dir(&inside).unwrap();
+    fs::write(inside.join("cube.obj"), CUBE).unwrap();
+    fs::write(top.path().join("secret.ron"), "[(shape: Secret())]").unwrap();
+    std::os::unix::fs::symlink("../secret.ron", inside.join("link.ron")).unwrap();
+    for file in ["../secret.ron", "link.ron"] {
+        fs::write(inside.join("scene.ron"), keeping(file)).unwrap();
+        let (code, _, err) = run(&inside, &["check"]);
+        assert_eq!(code, 1, "{err}");
+        assert!(err.contains("outside the scene's folder"), "{err}");
+        assert!(
+            !err.contains("Secret") && err.contains("scene.ron:4:"),
+            "{err}"
+        );
+        let (_, _, err) = run(&inside, &["check", "--allow-outside"]);
+        assert!(err.contains("unknown choice `Secret`"), "{err}");
+    }
+    // A link that the scene uses is not replaced either.
+    fs::write(
+        top.path().join("secret.ron"),
+        "[(shape: Round(radius: 4), places: At([(0, 0)]))]",
+    )
+    .unwrap();
+    let args = ["repair", "--allow-outside", "-o", "link.ron"];
+    let (code, _, err) = run(&inside, &args);
+    assert_eq!(code, 2, "{err}");
+    assert!(inside.join("link.ron").is_symlink());
+}
+
+#[test]
 fn lists_read_to_be_mended_are_given_and_free() {
     let list = "pillars: [(shape: Round(radius: 4), places: At([(0, 0), (3, 0)])), \
                 (shape: Round(radius: 4), places: At([(90, 0)])), (shape: Round(radius: 5), height: 80, places: At([(-30, 0)]))], \
