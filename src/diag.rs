@@ -17,7 +17,7 @@ pub enum Severity {
 pub enum Place {
     /// A byte range of the scene's text.
     Scene(Range<usize>),
-    /// A line (1-based) of a text model file, with the offending line's text (shortened, made safe to print).
+    /// A line (1-based) of a layout or text model file, with the offending line's text (shortened, made safe to print).
     Line {
         file: String,
         line: usize,

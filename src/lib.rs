@@ -12,6 +12,7 @@
 //! | from | by | to |
 //! |---|---|---|
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
+//! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
 //! | a view's models | [`viewmap::Target::new`] | the target ready for rays, projected |
 //! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |

@@ -1,7 +1,8 @@
 //! What each command does, in order.
 
-use super::files::{self, ModelFiles};
+use super::files::{self, SceneFiles};
 use super::messages::{Messages, Source};
+use super::plan::{self, Search};
 use super::progress::Reporter;
 use super::write::{self, Target};
 use super::{Cli, Command, Global, SceneArgs, Style};
@@ -9,15 +10,17 @@ use clap::CommandFactory;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::{Diagnostic, Warned};
 use pillarforest::scene::{self, Scene};
+use pillarforest::support::Support;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-const WELL: u8 = 0;
-const WRONG_INPUT: u8 = 1;
-const WRONG_USAGE: u8 = 2;
-const NOT_PRINTABLE: u8 = 3;
+pub const WELL: u8 = 0;
+pub const WRONG_INPUT: u8 = 1;
+pub const WRONG_USAGE: u8 = 2;
+pub const NOT_PRINTABLE: u8 = 3;
 
-const NOTHING: &str = "Nothing was written.";
+pub const NOTHING: &str = "Nothing was written.";
 const NOTHING_YET: &str = "Nothing was written; `--force` writes it all the same.";
 
 /// Runs the command; gives the exit code.
@@ -43,6 +46,12 @@ pub fn run(cli: &Cli) -> u8 {
             };
             make(&messages, &cli.global, &scene, &order)
         }
+        Command::Plan { scene, search } => {
+            plan::run(&messages, &cli.global, scene, search, Search::Plan)
+        }
+        Command::Repair { scene, search } => {
+            plan::run(&messages, &cli.global, scene, search, Search::Repair)
+        }
         Command::View { scene, output } => {
             let order = Order::of(Goal::Plan, output.as_deref());
             make(&messages, &cli.global, scene, &order)
@@ -62,7 +71,7 @@ pub fn run(cli: &Cli) -> u8 {
 }
 
 /// Prints to standard output; a closed pipe is no error.
-fn say(text: &str) -> u8 {
+pub fn say(text: &str) -> u8 {
     let _ = std::io::stdout().write_all(text.as_bytes());
     WELL
 }
@@ -74,7 +83,7 @@ fn completions(shell: clap_complete::Shell) -> u8 {
 }
 
 /// Prints the problems of a failed command.
-fn fail(messages: &Messages, list: &[Diagnostic], source: Option<&Source>, code: u8) -> u8 {
+pub fn fail(messages: &Messages, list: &[Diagnostic], source: Option<&Source>, code: u8) -> u8 {
     messages.print(list, source);
     messages.closing(list, NOTHING);
     code
@@ -122,14 +131,19 @@ fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
 }
 
 /// A scene read for a command, with its text for messages.
-struct Loaded {
-    scene: Scene,
+pub struct Loaded {
+    pub scene: Scene,
     warnings: Vec<Diagnostic>,
-    source: Source,
+    pub source: Source,
+    /// The files it names that were read.
+    pub read: Vec<PathBuf>,
 }
 
+/// How a scene is read: [`scene::resolve`] or [`scene::resolve_to_mend`].
+pub type Resolve = fn(&str, scene::ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>>;
+
 /// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
-fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
+pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<Loaded> {
     if let Some(jobs) = args.jobs {
         // Before anything runs in parallel: a pool that exists already would keep its size.
         let _ = rayon::ThreadPoolBuilder::new()
@@ -164,8 +178,8 @@ fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
             .filter(|v| !v.is_empty())
             .map(PathBuf::from)
     });
-    let model_files = ModelFiles::of(&args.scene, library.as_deref(), args.allow_outside);
-    match scene::resolve(&source.text, &|name| model_files.read(name)) {
+    let files = SceneFiles::of(&args.scene, library.as_deref(), args.allow_outside);
+    match resolve(&source.text, &|name| files.read(name)) {
         Err(problems) => stop(&problems, Some(&source)),
         Ok(Warned { value, warnings }) => {
             if messages.print(&warnings, Some(&source)) {
@@ -176,8 +190,27 @@ fn load(messages: &Messages, args: &SceneArgs) -> Option<Loaded> {
                 scene: value,
                 warnings,
                 source,
+                read: files.into_read(),
             })
         }
+    }
+}
+
+impl Loaded {
+    /// Tells, from now on, whether a search for pillars has had its time. The library has no clock.
+    pub fn time_is_up(&self) -> impl Fn() -> bool + Sync + use<> {
+        let brief = self.scene.brief.as_ref();
+        let seconds = brief.map_or(f64::INFINITY, |b| b.seconds);
+        let start = Instant::now();
+        move || start.elapsed().as_secs_f64() > seconds
+    }
+
+    /// Prints what ended the run; gives the exit code.
+    pub fn failed(&self, messages: &Messages, problems: &[Diagnostic]) -> u8 {
+        let all: Vec<Diagnostic> = problems.iter().chain(&self.warnings).cloned().collect();
+        messages.print(problems, Some(&self.source));
+        messages.closing(&all, NOTHING);
+        WRONG_INPUT
     }
 }
 
@@ -190,16 +223,11 @@ fn compile(
     goal: Goal,
 ) -> Result<(Build, Reporter), u8> {
     let reporter = Reporter::new(global.quiet, global.verbose);
-    let result = compile::run(&loaded.scene, goal, &|stage, share| {
-        reporter.report(stage, share)
-    });
+    let stop = loaded.time_is_up();
+    let progress = |stage: &str, share| reporter.report(stage, share);
+    let result = compile::run(&loaded.scene, goal, &progress, &stop);
     reporter.finish();
-    let build = result.map_err(|problems| {
-        let all: Vec<Diagnostic> = problems.iter().chain(&loaded.warnings).cloned().collect();
-        messages.print(&problems, Some(&loaded.source));
-        messages.closing(&all, NOTHING);
-        WRONG_INPUT
-    })?;
+    let build = result.map_err(|problems| loaded.failed(messages, &problems))?;
     if messages.print(&build.warnings, Some(&loaded.source)) {
         messages.closing(&build.warnings, NOTHING);
         return Err(WRONG_INPUT);
@@ -210,22 +238,26 @@ fn compile(
     Ok((build, reporter))
 }
 
+/// `1 view`, `2 views`.
+pub fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
 fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
-    let Some(loaded) = load(messages, args) else {
+    let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
     match compile(messages, global, args, &loaded, Goal::Check) {
         Err(code) => code,
         Ok((build, _)) => {
-            let count =
-                |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
             let views = count(loaded.scene.views.len(), "view");
-            let pillars = loaded
-                .scene
-                .supports
-                .iter()
-                .filter(|s| s.layer.is_some())
-                .count();
+            let pillars = match &loaded.scene.brief {
+                Some(_) => "pillars to be found".to_string(),
+                None => {
+                    let carry = |s: &&Support| s.layer.is_some();
+                    count(loaded.scene.supports.iter().filter(carry).count(), "pillar")
+                }
+            };
             let warnings = loaded.warnings.len() + build.warnings.len();
             let found = if warnings == 0 {
                 "no problems".to_string()
@@ -233,9 +265,8 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
                 count(warnings, "warning")
             };
             say(&format!(
-                "{}: {views}, {}: {found}\n",
-                args.scene.display(),
-                count(pillars, "pillar")
+                "{}: {views}, {pillars}: {found}\n",
+                args.scene.display()
             ))
         }
     }
@@ -269,7 +300,7 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
         Ok(target) => target,
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
-    let Some(loaded) = load(messages, args) else {
+    let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
     if order.goal == Goal::All && loaded.scene.output.split && matches!(target, Target::File(_)) {
@@ -293,6 +324,10 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
             return code;
         }
         messages.closing(&build.failures, "Written all the same.");
+    }
+    let names = build.files.iter().map(|f| f.path.as_str());
+    if let Err(problem) = target.spares(names, &args.scene, &loaded.read) {
+        return fail(messages, &[problem], None, WRONG_USAGE);
     }
     match target.write(&build.files) {
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),

@@ -1,4 +1,4 @@
-//! Reading: the scene's text and the model files it names.
+//! Reading: the scene's text and the files it names, models and layouts.
 //!
 //! A scene may come from anywhere, so what it names is read only if it is a regular file in or below the scene's folder, links
 //! followed, or if it lies, by its bare file name, in the folder the user gave with `--models`. Only `--allow-outside` lets a
@@ -6,6 +6,7 @@
 
 use pillarforest::diag::{Diagnostic, Place, escaped};
 use pillarforest::scene::nearest;
+use std::cell::RefCell;
 use std::fs;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -67,16 +68,18 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     Ok(bytes)
 }
 
-/// Where model files are looked for.
-pub struct ModelFiles {
+/// Where the files that a scene names are looked for.
+pub struct SceneFiles {
     folder: PathBuf,
     library: Option<PathBuf>,
     /// Whether the user lets the scene name files anywhere.
     anywhere: bool,
+    /// Those read so far.
+    read: RefCell<Vec<PathBuf>>,
 }
 
-impl ModelFiles {
-    /// The model files of a scene; `anywhere` lets it name files outside of its folder.
+impl SceneFiles {
+    /// The files of a scene; `anywhere` lets it name files outside of its folder.
     pub fn of(scene: &Path, library: Option<&Path>, anywhere: bool) -> Self {
         let folder = scene
             .parent()
@@ -86,7 +89,13 @@ impl ModelFiles {
             folder: folder.to_path_buf(),
             library: library.map(Path::to_path_buf),
             anywhere,
+            read: RefCell::default(),
         }
+    }
+
+    /// The files that were read.
+    pub fn into_read(self) -> Vec<PathBuf> {
+        self.read.into_inner()
     }
 
     /// Reads the file a scene calls `name`.
@@ -94,22 +103,30 @@ impl ModelFiles {
     /// # Errors
     /// The name is no plain path, leads out of the scene's folder, or there is no such regular file.
     pub fn read(&self, name: &str) -> Result<Vec<u8>, Diagnostic> {
+        let (path, found) = self.find(name)?;
+        let bytes = regular(&found)?;
+        self.read.borrow_mut().push(path);
+        Ok(bytes)
+    }
+
+    /// The path that the name means, and the file to read: links on the way to it are followed only once.
+    fn find(&self, name: &str) -> Result<(PathBuf, PathBuf), Diagnostic> {
         well_named(name)?;
         let named = Path::new(name);
         if let (Some(library), Some(file)) = (&self.library, named.file_name()) {
             let found = library.join(file);
             if found.exists() {
-                return regular(&found);
+                return Ok((found.clone(), found));
             }
         }
         if !self.anywhere && climbs(named) {
-            return Err(outside("the model file lies outside the scene's folder"));
+            return Err(outside("the file lies outside the scene's folder"));
         }
         let path = self.folder.join(named);
         match fs::canonicalize(&path) {
-            Ok(found) if self.may_read(&found) => regular(&found),
+            Ok(found) if self.may_read(&found) => Ok((path, found)),
             Ok(_) => Err(outside(
-                "the model file is a link that leads outside the scene's folder",
+                "the file is a link that leads outside the scene's folder",
             )),
             Err(_) => Err(self.missing(&path)),
         }
@@ -178,13 +195,13 @@ fn well_named(name: &str) -> Result<(), Diagnostic> {
         |why: &str, help: &str| Err(Diagnostic::error(why.to_string()).help(help.to_string()));
     if name.trim().is_empty() {
         return fail(
-            "the name of the model file is empty",
+            "the name of the file is empty",
             "give a file beside the scene: file: \"models/owl.ply\"",
         );
     }
     if name.contains("://") {
         return fail(
-            "a model cannot be read from the network",
+            "a file cannot be read from the network",
             "download the file first and name the copy",
         );
     }

@@ -7,6 +7,7 @@
 mod commands;
 mod files;
 mod messages;
+mod plan;
 mod progress;
 mod write;
 
@@ -103,6 +104,20 @@ pub enum Command {
         #[arg(long)]
         split: bool,
     },
+    /// Find pillars for a scene with `pillars: Auto(...)`: layout.ron, to be included with `pillars: File("layout.ron")`, and the plan
+    Plan {
+        #[command(flatten)]
+        scene: SceneArgs,
+        #[command(flatten)]
+        search: SearchArgs,
+    },
+    /// Mend the pillars that a scene lists with the fewest moves, say which, and write them to layout.ron
+    Repair {
+        #[command(flatten)]
+        scene: SceneArgs,
+        #[command(flatten)]
+        search: SearchArgs,
+    },
     /// Draw only the plan: the forest from above with what every eye sees
     View {
         #[command(flatten)]
@@ -142,10 +157,10 @@ pub struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
     pub scene: PathBuf,
-    /// Where to look first for model files, by file name [env: PILLARFOREST_MODELS]
+    /// Where to look first for models and layouts, by file name [env: PILLARFOREST_MODELS]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub models: Option<PathBuf>,
-    /// Let the scene name model files outside of its folder: absolute, by `..` or through links
+    /// Let the scene name files outside of its folder: absolute, by `..` or through links
     #[arg(long)]
     pub allow_outside: bool,
     /// Change a value of the scene for this run: pillars[0].height=80, views[front].eye=(0,-300,60), energy=Curvature()
@@ -157,6 +172,30 @@ pub struct SceneArgs {
     /// Print how long every stage took
     #[arg(long)]
     pub timings: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+pub struct SearchArgs {
+    /// Directory for all files, or one .ron file for the layout alone [default: out/<scene>]
+    #[arg(short, long, value_hint = ValueHint::AnyPath)]
+    pub output: Option<PathBuf>,
+    /// Seed of the search, instead of the scene's
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// Candidate layouts to try, instead of the scene's number; 0 gives the layout that the search would start from
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
+    pub tries: Option<u32>,
+    /// Seconds after which the search ends with what it has, instead of the scene's
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
+}
+
+/// A time that a clock can measure.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
+        _ => Err("seconds are a number above 0".into()),
+    }
 }
 
 /// Parses the arguments and runs the command.

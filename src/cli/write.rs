@@ -19,7 +19,7 @@ pub enum Target {
 }
 
 /// File endings that ask for one file rather than a directory.
-const ENDINGS: [&str; 6] = ["3mf", "stl", "glb", "svg", "png", "json"];
+const ENDINGS: [&str; 7] = ["3mf", "stl", "glb", "svg", "png", "json", "ron"];
 
 impl Target {
     /// What `-o` means, by default `out/<scene>`; checked as far as it can be before any work.
@@ -65,6 +65,37 @@ impl Target {
         }
     }
 
+    /// Refuses to overwrite the scene or a file that it names, `read`. `names` are those of the files to be written.
+    ///
+    /// # Errors
+    /// Which of them is in the way.
+    pub fn spares<'n>(
+        &self,
+        names: impl IntoIterator<Item = &'n str>,
+        scene: &Path,
+        read: &[PathBuf],
+    ) -> Result<(), Diagnostic> {
+        let outputs: Vec<PathBuf> = match self {
+            Target::Directory(directory) => names.into_iter().map(|n| directory.join(n)).collect(),
+            Target::File(path) => vec![path.clone()],
+        };
+        for output in outputs {
+            let what = if same(&output, scene) {
+                "the scene itself"
+            } else if read.iter().any(|file| same(&output, file)) {
+                "a file that the scene uses"
+            } else {
+                continue;
+            };
+            return Err(Diagnostic::error(format!(
+                "cannot write to \"{}\": it is {what}",
+                output.display()
+            ))
+            .help("give another folder or name: `-o DIR`"));
+        }
+        Ok(())
+    }
+
     /// Writes the files; gives the path to name in the last line.
     ///
     /// # Errors
@@ -98,6 +129,21 @@ impl Target {
             }
         }
     }
+}
+
+/// Whether writing `output` would replace `file`, or the link that it is: outputs replace links and do not follow them.
+fn same(output: &Path, file: &Path) -> bool {
+    let folder = |path: &Path| fs::canonicalize(parent(path)).ok();
+    let entry = |path: &Path| Some(folder(path)?.join(path.file_name()?));
+    let target = |path: &Path| fs::canonicalize(path).ok();
+    let ours = match output.is_symlink() {
+        true => [entry(output), None],
+        false => [entry(output), target(output)],
+    };
+    let theirs = [entry(file), target(file)];
+    ours.iter()
+        .flatten()
+        .any(|o| theirs.iter().flatten().any(|t| o == t))
 }
 
 /// Output names come from the program; a slip there must not write elsewhere.

@@ -8,6 +8,7 @@ mod elsewhere;
 mod files;
 mod page;
 mod pictures;
+mod planning;
 mod print;
 mod sight;
 mod split;
@@ -17,7 +18,8 @@ mod verdict;
 use crate::bvh::Bvh;
 use crate::carve::{Forest, ViewRelief, carve};
 use crate::diag::Diagnostic;
-use crate::scene::Scene;
+use crate::planner::{Brief, Watch};
+use crate::scene::{Scene, laid_out};
 use crate::viewmap::SupportField;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
@@ -29,6 +31,8 @@ use sight::{Shape, Sight, see};
 use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 use verdict::failures;
+
+pub use planning::{LAYOUT, cut_short, plan_outputs, planned, repaired, shortfalls};
 
 /// A file to be written, relative to the output directory.
 #[derive(Clone, Debug)]
@@ -77,11 +81,47 @@ pub enum Goal {
 /// Called as work goes on with the stage's name and the share of the whole run done, 0 to 1. May come from any thread.
 pub type Progress<'a> = &'a (dyn Fn(&str, f64) + Sync);
 
-/// Runs the stages that `goal` needs.
+/// Asked now and then by a search for pillars whether it is to end with what it has. May come from any thread.
+pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// Share of a run that finding its pillars takes.
+const PLANNING: f64 = 0.3;
+
+/// Runs the stages that `goal` needs, finding pillars first if the scene wants it.
 ///
 /// # Errors
 /// All errors of the stage that failed, at least one of them.
-pub fn run(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Diagnostic>> {
+pub fn run(
+    scene: &Scene,
+    goal: Goal,
+    progress: Progress,
+    stop: Stop,
+) -> Result<Build, Vec<Diagnostic>> {
+    let Some(brief) = &scene.brief else {
+        return forest(scene, goal, progress);
+    };
+    // A check looks at what a search would start from.
+    let tries = if goal == Goal::Check { 0 } else { brief.tries };
+    let brief = Brief {
+        tries,
+        ..brief.clone()
+    };
+    let watch = Watch {
+        progress: &|stage, share| progress(stage, PLANNING * share),
+        stop,
+    };
+    let plan = crate::planner::plan(&scene.views, &brief, watch)?;
+    let rest = |stage: &str, share| progress(stage, PLANNING + (1.0 - PLANNING) * share);
+    let mut build = forest(&laid_out(scene, &plan), goal, &rest)?;
+    build.warnings.extend(cut_short(&brief, &plan));
+    if matches!(goal, Goal::All | Goal::Plan) {
+        build.files.push(planning::layout_file(scene, &plan));
+    }
+    Ok(build)
+}
+
+/// The stages of a scene whose pillars stand.
+fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Diagnostic>> {
     if goal == Goal::Plan {
         progress("plan", 0.1);
         return Ok(Build {

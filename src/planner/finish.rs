@@ -199,6 +199,7 @@ fn frame(views: &[View], tries: u64, layout: &Layout) -> Frame {
         tries,
         pillars: layout.pillars.clone(),
         runs: layout.survey.runs.clone(),
+        faults: layout.survey.faults.clone(),
         marks: layout
             .survey
             .faults

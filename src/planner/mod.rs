@@ -18,7 +18,7 @@ mod survey;
 
 pub use brief::{Adjustment, Brief, Care, Freedom, Matters, Pillar, Region, Shape};
 pub use limits::{foot, posed};
-pub use skyline::{Run, Shadow};
+pub use skyline::{Run, Shadow, entry};
 pub use start::{Clash, Start, Stuck, start};
 pub use subject::Subject;
 pub use survey::{Fault, Kind, Survey};
@@ -83,6 +83,7 @@ pub struct Frame {
     pub pillars: Vec<Pillar>,
     /// Index: view; the first stretch is on pillar `Run::pillar`.
     pub runs: Vec<Vec<Run>>,
+    pub faults: Vec<Fault>,
     /// Places of faults in plan, and what they are.
     pub marks: Vec<(DVec2, String)>,
     /// Least forecast error of any view, degrees, and least tolerance (guaranteed) of any, millimetres.

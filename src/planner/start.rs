@@ -119,7 +119,9 @@ struct Row {
 
 /// Of the rows with [`LEADS_MM`] the whole one that stands nearest to its eye; or else the one that got farthest.
 fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Row {
-    let rows = LEADS_MM.iter().map(|lead| row_from(subject, view, brief, given, *lead));
+    let rows = LEADS_MM
+        .iter()
+        .map(|lead| row_from(subject, view, brief, given, *lead));
     let depth = |row: &Row| {
         let distances = row.pillars.iter().map(|p| p.at.distance(subject.o));
         match row.stuck {
@@ -128,7 +130,10 @@ fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Row {
         }
     };
     rows.reduce(|best, row| {
-        let better = depth(&row).0.cmp(&depth(&best).0).then(depth(&row).1.total_cmp(&depth(&best).1));
+        let better = depth(&row)
+            .0
+            .cmp(&depth(&best).0)
+            .then(depth(&row).1.total_cmp(&depth(&best).1));
         if better.is_lt() { row } else { best }
     })
     .unwrap_or_default()

@@ -2,6 +2,7 @@
 
 use super::defaults;
 use super::reader::{Reader, Span, error_at, short, warning_at};
+use super::region::{self, Room};
 use super::shapes;
 use crate::diag::Diagnostic;
 use crate::scene::Printer;
@@ -35,23 +36,35 @@ pub struct Eye {
     pub span: Span,
 }
 
+/// What of a forest is checked.
+pub struct Checked<'a> {
+    pub pillars: &'a [Standing],
+    pub base: Option<&'a Slab>,
+    /// Where more pillars are to be found.
+    pub room: Option<&'a Room>,
+    /// Pillars that are to be mended may still overlap and stand anywhere.
+    pub mend: bool,
+}
+
 /// All of them.
-pub fn all(
-    reader: &mut Reader,
-    pillars: &[Standing],
-    base: Option<&Slab>,
-    eyes: &[Eye],
-    printer: &Printer,
-) {
-    gaps(reader, pillars, printer);
+pub fn all(reader: &mut Reader, checked: &Checked, eyes: &[Eye], printer: &Printer) {
+    let (pillars, base) = (checked.pillars, checked.base);
     slimness(reader, pillars, printer);
-    if let Some(slab) = base {
-        footing(reader, pillars, slab);
+    if !checked.mend {
+        gaps(reader, pillars, printer);
+        if let Some(slab) = base {
+            footing(reader, pillars, slab);
+        }
     }
-    plate(reader, pillars, base, printer);
+    if let Some(room) = checked.room {
+        slimness(reader, &room.samples, printer);
+        let problem = base.and_then(|slab| region::footing(room, slab));
+        reader.problems.extend(problem);
+    }
+    plate(reader, checked, printer);
     eye_pairs(reader, eyes);
     for eye in eyes {
-        let problem = place(eye, pillars, base, reader.unit_name);
+        let problem = place(eye, checked, reader.unit_name);
         reader.problems.extend(problem);
     }
 }
@@ -272,16 +285,19 @@ fn footing(reader: &mut Reader, pillars: &[Standing], slab: &Slab) {
 }
 
 /// Size of the whole forest against the printer's bed, number of pillars against patience.
-fn plate(reader: &mut Reader, pillars: &[Standing], base: Option<&Slab>, printer: &Printer) {
+fn plate(reader: &mut Reader, checked: &Checked, printer: &Printer) {
+    let (pillars, base, room) = (checked.pillars, checked.base, checked.room);
     let points = pillars
         .iter()
         .flat_map(|p| &p.profile)
-        .chain(base.iter().flat_map(|b| &b.outline));
+        .chain(base.iter().flat_map(|b| &b.outline))
+        .chain(room.iter().flat_map(|r| &r.region));
     let bounds = points.fold(None, |b: Option<(DVec2, DVec2)>, p| {
         Some(b.map_or((*p, *p), |(l, h)| (l.min(*p), h.max(*p))))
     });
     let Some((lo, hi)) = bounds else { return };
-    let Some(tallest) = pillars.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else {
+    let standing = pillars.iter().chain(room.iter().flat_map(|r| &r.samples));
+    let Some(tallest) = standing.max_by(|a, b| a.height.total_cmp(&b.height)) else {
         return;
     };
     let height = tallest.height + base.map_or(0.0, |b| b.thickness);
@@ -358,7 +374,8 @@ pub fn direction(view: &str, eye: DVec3, look_at: DVec3, span: &Span) -> Option<
 }
 
 /// An eye must stand in the open, at a distance, above the base.
-fn place(eye: &Eye, pillars: &[Standing], base: Option<&Slab>, unit: &str) -> Option<Diagnostic> {
+fn place(eye: &Eye, checked: &Checked, unit: &str) -> Option<Diagnostic> {
+    let base = checked.base;
     let ground = eye.at.truncate();
     let thickness = base.map_or(0.0, |b| b.thickness);
     if let Some(slab) = base {
@@ -381,30 +398,39 @@ fn place(eye: &Eye, pillars: &[Standing], base: Option<&Slab>, unit: &str) -> Op
             ));
         }
     }
-    let distance = |p: &Standing| shapes::gap_to_point(&p.profile, ground);
-    let nearest = pillars
-        .iter()
-        .map(|p| (distance(p), p))
-        .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let tops = pillars.iter().map(|p| p.height).fold(0.0, f64::max);
-    if eye.at.z > tops || nearest.0 > 20.0 {
+    let (distance, nearest) = nearest(checked, ground)?;
+    let tops = checked.pillars.iter().map(|p| p.height);
+    let tops = tops.chain(checked.room.map(|r| r.tops)).fold(0.0, f64::max);
+    if eye.at.z > tops || distance > 20.0 {
         return None;
     }
-    let where_ = if nearest.0 <= 0.0 {
+    let where_ = if distance <= 0.0 {
         "inside".to_string()
     } else {
-        format!("{} mm from", short(nearest.0))
+        format!("{} mm from", short(distance))
     };
     let mut problem = error_at(
         &eye.span,
-        format!(
-            "the eye of view \"{}\" is {where_} pillar {}",
-            eye.view, nearest.1.name
-        ),
+        format!("the eye of view \"{}\" is {where_} {nearest}", eye.view),
     )
     .label("an eye stands outside the forest, some hundred mm away");
     if eye.at.length() < 20.0 {
         problem = problem.help(format!("eyes are in {unit} like the rest of the scene: did you mean metres? Then write them times 1000"));
     }
     Some(problem)
+}
+
+/// What stands nearest to a point in plan, and how far away, millimetres.
+fn nearest(checked: &Checked, p: DVec2) -> Option<(f64, String)> {
+    let pillars = checked.pillars.iter();
+    let pillar = pillars
+        .map(|s| (shapes::gap_to_point(&s.profile, p), s))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let room = checked.room.map(|r| shapes::gap_to_point(&r.region, p));
+    match (pillar, room) {
+        (pillar, Some(gap)) if pillar.is_none_or(|(g, _)| gap < g) => {
+            Some((gap, "the region of the pillars".to_string()))
+        }
+        (pillar, _) => pillar.map(|(gap, s)| (gap, format!("pillar {}", s.name))),
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::contest::Contested;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
+use crate::planner::Matters;
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 use crate::support::{Datum, Layer};
@@ -25,6 +26,45 @@ pub const LAYER: Layer = Layer {
 /// (radius or half width from the axis, width from the surface), so that such pillars work without further ado.
 pub const BACK_SHARE: f64 = 0.5;
 pub const CORE_SHARE: f64 = 0.25;
+
+/// `Auto`: a forest that stands on a 150 mm base, which most printers take, if neither region nor base is given.
+pub const REGION_RADIUS: f64 = 70.0;
+/// What the region leaves of a base whose size is given: a pillar on the very edge would break out of it.
+pub const REGION_RIM: f64 = 1.0;
+/// Corners of a disc: its sides run within 0.02 mm of a circle of 70 mm.
+pub const REGION_CORNERS: u32 = 128;
+/// Radius of the pillars: the slimmest that carry the default layer with a sound core.
+pub const PLANNED_RADIUS: f64 = 4.0;
+/// Sizes between the smallest and the largest: with more of them a search takes longer and finds nothing better.
+pub const SIZES: usize = 5;
+/// Sizes are written with this many decimals of a millimetre: a tenth of what a printer resolves.
+pub const SIZE_DECIMALS: i32 = 2;
+/// Places and heights are written with this many.
+pub const PLACE_DECIMALS: i32 = 3;
+/// Other lengths and angles with this many, so that what was given in inches or radians stays what it was but for a rounding.
+pub const LENGTH_DECIMALS: i32 = 9;
+/// Room between solids: enough that 0.4 mm nozzles leave a gap and not a row of bridges.
+pub const GAP: f64 = 0.5;
+pub const COUNT: [u32; 2] = [1, 200];
+pub const SEED: u32 = 1;
+/// Candidates times views, as a candidate takes as long as there are views: some seconds; ten times as many gain a degree or two.
+pub const TRIES: u32 = 200_000;
+
+/// Candidates of a scene with so many views.
+pub fn tries(views: usize) -> u64 {
+    u64::from(TRIES) / views.max(1) as u64
+}
+
+/// Wall-clock seconds: only slow machines and many views ever reach it, so that plans rarely depend on the machine.
+pub const SECONDS: f64 = 60.0;
+/// From how far off, degrees, models are to be hidden: a step to the side in front of a forest half a metre away.
+pub const HIDDEN_FROM: f64 = 10.0;
+pub const MATTERS: Matters = Matters {
+    camouflage: 1.0,
+    tolerance: 1.0,
+    pillars: 0.0,
+    spread: 0.0,
+};
 
 /// Base: slab thickness, the room it leaves around the outermost pillar, facets of a disc.
 pub const BASE_THICKNESS: f64 = 5.0;
@@ -119,6 +159,18 @@ pub const MOST_POINTS: usize = 2_000;
 pub const MOST_CORNERS: u64 = 2_000_000;
 /// Sum of the squares of each outline's corners, for what is quadratic in them (widths, triangles): a second or two.
 pub const MOST_CORNER_PAIRS: u64 = 1_000_000_000;
+/// Shapes that planned pillars may have, before their sizes.
+pub const MOST_SHAPES: usize = 8;
+/// Factors on the size of a shape: beyond them it is another shape.
+pub const SIZE_FACTORS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+pub const TRIES_ALLOWED: std::ops::RangeInclusive<u32> = 1..=10_000_000;
+/// Up to a day.
+pub const SECONDS_ALLOWED: std::ops::RangeInclusive<f64> = 0.01..=86_400.0;
+pub const HIDDEN_ALLOWED: std::ops::RangeInclusive<f64> = 1.0..=90.0;
+pub const WEIGHTS: std::ops::RangeInclusive<f64> = 0.0..=1000.0;
+/// How far a layout may change the models of a view: degrees, and factors down to the inverse.
+pub const MOST_TURN: f64 = 180.0;
+pub const MOST_SCALE: f64 = 2.0;
 pub const FACETS: std::ops::RangeInclusive<u32> = 8..=512;
 pub const PICTURE_SIZES: std::ops::RangeInclusive<u32> = 64..=4096;
 pub const PLAN_WIDTHS: std::ops::RangeInclusive<u32> = 400..=8000;

@@ -54,8 +54,14 @@ fn line_of(text: &str, offset: usize) -> usize {
     text[..offset].matches('\n').count() + 1
 }
 
-/// What RON found wrong with the value at `span`, in our words. May be several problems.
-pub fn explain(text: &str, span: &Span, error: &SpannedError, wanted: &str) -> Vec<Diagnostic> {
+/// What RON found wrong with the value at `span` of a `what`, in our words. May be several problems.
+pub fn explain(
+    text: &str,
+    what: &str,
+    span: &Span,
+    error: &SpannedError,
+    wanted: &str,
+) -> Vec<Diagnostic> {
     let slice = &text[span.clone()];
     match &error.code {
         Error::NoSuchStructField {
@@ -78,11 +84,17 @@ pub fn explain(text: &str, span: &Span, error: &SpannedError, wanted: &str) -> V
                     &(at..at + name.len()),
                     format!("RON has no extension `{}`", printable(name)),
                 )
-                .help("remove the line `#![enable(...)]`: scenes do not need it"),
+                .help(format!(
+                    "remove the line `#![enable(...)]`: {what}s do not need it"
+                )),
             ]
         }
         Error::ExceededRecursionLimit => vec![error_at(span, "values nest too deep")],
-        code => vec![unfit(text, span, code, wanted, error)],
+        code if span.len() == text.len() && is_syntax(code) => {
+            let at = span.start + offset_of(slice, error.span.end);
+            vec![decimal_comma(text, span, at).unwrap_or_else(|| syntax(text, what, at, code))]
+        }
+        _ => vec![unfit(text, span, wanted, error)],
     }
 }
 
@@ -145,16 +157,12 @@ fn unknown_variant(slice: &str, base: usize, found: &str, expected: &[&'static s
     .help(format!("one of: {}", expected.join(", ")))
 }
 
-/// A value of the wrong sort, or text that is not RON at all.
-fn unfit(text: &str, span: &Span, code: &Error, wanted: &str, error: &SpannedError) -> Diagnostic {
+/// A value of the wrong sort. Values inside were skimmed when the whole was read: their text is sound RON.
+fn unfit(text: &str, span: &Span, wanted: &str, error: &SpannedError) -> Diagnostic {
     let slice = &text[span.clone()];
     let at = span.start + offset_of(slice, error.span.end);
     if let Some(comma) = decimal_comma(text, span, at) {
         return comma;
-    }
-    // Values inside were skimmed when the whole was read: their text is sound RON.
-    if span.len() == text.len() && is_syntax(code) {
-        return syntax(text, at, code);
     }
     let mut problem = error_at(
         span,
@@ -166,7 +174,7 @@ fn unfit(text: &str, span: &Span, code: &Error, wanted: &str, error: &SpannedErr
     if wanted.contains("(x, y") && slice.matches(',').count() > wanted.matches(',').count() {
         problem = problem.help("decimal commas? Numbers are written with a point: 0.5");
     }
-    if matches!(code, Error::IntegerOutOfBounds) {
+    if matches!(error.code, Error::IntegerOutOfBounds) {
         problem = problem
             .label("out of range")
             .help("whole numbers run from 0 to 4294967295");
@@ -175,7 +183,7 @@ fn unfit(text: &str, span: &Span, code: &Error, wanted: &str, error: &SpannedErr
 }
 
 /// Text that is not RON, at the word where that shows.
-fn syntax(text: &str, at: usize, code: &Error) -> Diagnostic {
+fn syntax(text: &str, what: &str, at: usize, code: &Error) -> Diagnostic {
     let tokens = lexer::tokens(text).unwrap_or_default();
     let holding = tokens
         .iter()
@@ -200,7 +208,7 @@ fn syntax(text: &str, at: usize, code: &Error) -> Diagnostic {
         },
         Error::TrailingCharacters => error_at(
             &here,
-            "the scene ends before this: nothing may follow its closing bracket",
+            format!("the {what} ends before this: nothing may follow its closing bracket"),
         ),
         Error::ExpectedIdentifier => {
             error_at(&here, format!("expected a field name, found `{found}`"))

@@ -1,8 +1,16 @@
 //! Scenes: the user's RON text (`raw`) and what it means (`resolve`), in which nothing is left to decide.
 
+mod aims;
+mod auto;
+mod bases;
 mod checks;
 pub mod defaults;
+mod depths;
+mod document;
 mod explain;
+mod forest;
+mod included;
+mod laid;
 mod layout;
 mod lexer;
 mod names;
@@ -10,8 +18,10 @@ mod options;
 mod placing;
 mod raw;
 mod reader;
+mod region;
 mod resolve;
 mod schema;
+mod sections;
 mod set;
 mod shapes;
 mod spanned;
@@ -19,14 +29,16 @@ mod supports;
 mod template;
 mod tree;
 
+pub use laid::{laid_out, layout_text};
 pub use reader::nearest;
-pub use resolve::{ReadFile, resolve};
+pub use resolve::{ReadFile, resolve, resolve_to_mend};
 pub use schema::schema;
 pub use set::set;
 pub use template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 
 use crate::contest::Contested;
 use crate::mimic::Energy;
+use crate::planner::{Adjustment, Brief};
 use crate::steps::StepOptions;
 use crate::support::Support;
 use crate::view::View;
@@ -39,6 +51,11 @@ pub struct Scene {
     pub views: Vec<View>,
     /// Pillars first, the base (if any) last.
     pub supports: Vec<Support>,
+    /// What is to be found besides these pillars, or mended among them: they are the ones it gives, in their order. `None`: the
+    /// forest is complete.
+    pub brief: Option<Brief>,
+    /// How a layout file changed the models of every view; done in `views` already.
+    pub adjusted: Vec<Adjustment>,
     pub energy: Energy,
     /// `None`: the surface stays in one piece, as in the paper.
     pub steps: Option<StepOptions>,

@@ -6,6 +6,8 @@ use super::reader::{Reader, Span, error_at, short};
 use super::spanned::Field;
 use crate::diag::Diagnostic;
 use crate::mesh::TriMesh;
+use crate::planner::Adjustment;
+use crate::view::PlacedModel;
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
 /// How large a fitted model becomes, millimetres.
@@ -248,6 +250,24 @@ fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMa
         ));
     }
     Some(matrix)
+}
+
+/// Lowest and highest corner of the box around all models.
+pub fn extent(models: &[PlacedModel]) -> Option<(DVec3, DVec3)> {
+    let bounds = models.iter().filter_map(|m| m.mesh.bounds());
+    bounds.reduce(|(l, h), (lo, hi)| (l.min(lo), h.max(hi)))
+}
+
+/// Changes the models of one view, all together about the middle of their underside.
+pub fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
+    let Some((lo, hi)) = extent(models).filter(|_| *adjustment != Adjustment::NONE) else {
+        return;
+    };
+    let matrix = adjustment.matrix(((lo + hi) / 2.0).with_z(lo.z));
+    for model in models {
+        model.matrix = matrix * model.matrix;
+        model.mesh = model.mesh.transformed(matrix);
+    }
 }
 
 /// Warnings and errors about the size of a placed model.

@@ -3,8 +3,9 @@
 //! Every field may be missing and every value may be wrong on its own; `resolve` decides. Unknown fields are errors.
 //! What the fields mean is told by `schema`, which a test compares with these types.
 
-use super::spanned::{Field, Spanned};
-use serde::Deserialize;
+use super::spanned::{Field, Spanned, options, own_text};
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
 
 /// What a value should have been, for error messages.
 pub trait Wanted {
@@ -35,7 +36,7 @@ raw! {
         units: RawUnit,
         models: List<RawModel>,
         views: List<RawView>,
-        pillars: List<RawPillars>,
+        pillars: RawForest,
         base: RawBase,
         depth: RawDepth,
         energy: RawEnergy,
@@ -72,6 +73,38 @@ raw! {
         height: f64,
         places: RawPlaces,
         depth: RawDepth,
+    }
+    struct RawAuto, "`Auto(region: Disc(radius: 70))`" {
+        region: RawRegion,
+        shapes: List<RawShape>,
+        sizes: RawRange<f64>,
+        height: RawRange<f64>,
+        depth: RawDepth,
+        gap: f64,
+        count: RawRange<u32>,
+        fixed: List<RawPillars>,
+        seed: u32,
+        tries: u32,
+        seconds: f64,
+        hidden_from: f64,
+        eye_tolerance: RawTolerance,
+        matters: RawMatters,
+        models: RawFreedom,
+    }
+    struct RawDiscRegion, "`Disc(radius: 70)`" { radius: f64, centre: [f64; 2], }
+    struct RawRectangleRegion, "`Rectangle(width: 140, depth: 90)`" { width: f64, depth: f64, centre: [f64; 2], turn: f64, }
+    struct RawPolygonRegion, "`Polygon(points: [(0, 0), (80, 0), (40, 60)])`" { points: List<[f64; 2]>, }
+    struct RawMatters, "weights `(camouflage: 1, tolerance: 1)`" {
+        camouflage: f64, tolerance: f64, pillars: f64, spread: f64,
+    }
+    struct RawFreedom, "limits `(turn: 5, scale: 1.05, shift: 2)`" { turn: f64, scale: f64, shift: f64, }
+    struct RawLayout, "a layout `[pillars, ...]` or `(pillars: [...], adjust: [...])`" {
+        units: RawUnit,
+        pillars: List<RawPillars>,
+        adjust: List<RawAdjust>,
+    }
+    struct RawAdjust, "an adjustment `(view: \"owl\", turn: 3, scale: 0.98, shift: (1, -2))`" {
+        view: String, turn: f64, scale: f64, shift: [f64; 2],
     }
     struct RawRound, "`Round(radius: 4)`" { radius: f64, facets: u32, }
     struct RawPolygon, "`Polygon(sides: 6, radius: 4)`" { sides: u32, radius: f64, turn: f64, }
@@ -115,6 +148,40 @@ pub enum RawUnit {
 pub enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
+}
+
+/// The pillars of a scene: listed, to be found, or kept in a file of their own.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // one per scene
+pub enum RawForest {
+    List(Spanned<List<RawPillars>>),
+    Choice(Spanned<RawForestChoice>),
+}
+
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per scene
+pub enum RawForestChoice {
+    Auto(RawAuto),
+    File(String),
+}
+
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per scene
+pub enum RawRegion {
+    Disc(RawDiscRegion),
+    Rectangle(RawRectangleRegion),
+    Polygon(RawPolygonRegion),
+}
+
+/// From the smallest to the largest: one number or two.
+#[derive(Clone, Copy, Debug)]
+pub struct RawRange<T>(pub [T; 2]);
+
+/// One number for all views, or one for each.
+#[derive(Debug)]
+pub enum RawTolerance {
+    All(Spanned<f64>),
+    Each(Spanned<List<f64>>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -180,6 +247,37 @@ pub enum RawWeight {
     SolidAngle,
 }
 
+impl<'de> Deserialize<'de> for RawForest {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = own_text(deserializer)?;
+        Ok(match text.starts_with('[') {
+            true => Self::List(Spanned::of(text)),
+            false => Self::Choice(Spanned::of(text)),
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for RawTolerance {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = own_text(deserializer)?;
+        Ok(match text.starts_with('[') {
+            true => Self::Each(Spanned::of(text)),
+            false => Self::All(Spanned::of(text)),
+        })
+    }
+}
+
+impl<'de, T: DeserializeOwned + Copy> Deserialize<'de> for RawRange<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = own_text(deserializer)?;
+        let range = match text.starts_with('(') {
+            true => options().from_str(text),
+            false => options().from_str(text).map(|one: T| [one; 2]),
+        };
+        range.map(Self).map_err(D::Error::custom)
+    }
+}
+
 wanted! {
     String => "text in straight double quotes";
     f64 => "a number";
@@ -190,6 +288,12 @@ wanted! {
     [f64; 4] => "a row of four numbers `(a, b, c, d)`";
     RawUnit => "mm, cm, m or inch";
     RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
+    RawForest => "a list `[...]`, `Auto(...)` or `File(\"layout.ron\")`";
+    RawForestChoice => RawForest::WANTED;
+    RawRegion => "`Disc(...)`, `Rectangle(...)` or `Polygon(...)`";
+    RawRange<f64> => "a number or a range `(60, 90)`";
+    RawRange<u32> => "a whole number or a range `(1, 200)`";
+    RawTolerance => "a number, or a list with one for each view";
     RawShape => "`Round(...)`, `Polygon(...)`, `Rectangle(...)` or `Profile(...)`";
     RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";

@@ -15,6 +15,8 @@ pub type Span = Range<usize>;
 /// Collects the problems of one text.
 pub struct Reader<'a> {
     pub text: &'a str,
+    /// What the text is: a "scene" or a "layout".
+    pub what: &'static str,
     pub problems: Vec<Diagnostic>,
     /// Millimetres per unit of the scene.
     pub unit: f64,
@@ -32,9 +34,10 @@ pub fn warning_at(span: &Span, message: impl Into<String>) -> Diagnostic {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(text: &'a str) -> Self {
+    pub fn new(text: &'a str, what: &'static str) -> Self {
         Self {
             text,
+            what,
             problems: Vec::new(),
             unit: 1.0,
             unit_name: "mm",
@@ -60,7 +63,7 @@ impl<'a> Reader<'a> {
             Ok(value) => Some(value),
             Err(error) => {
                 let span = self.span(spanned);
-                let found = explain(self.text, &span, error, T::WANTED);
+                let found = explain(self.text, self.what, &span, error, T::WANTED);
                 self.problems.extend(found);
                 None
             }
@@ -104,13 +107,37 @@ impl<'a> Reader<'a> {
 
     /// A number that is neither NaN nor infinite.
     pub fn number(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
-        let (value, span) = self.given(field)?;
+        let (&value, span) = self.given(field)?;
+        Some((self.finite(value, name, &span)?, span))
+    }
+
+    /// The number, if it is neither NaN nor infinite.
+    pub fn finite(&mut self, value: f64, name: &str, span: &Span) -> Option<f64> {
         if value.is_finite() {
-            return Some((*value, span));
+            return Some(value);
         }
         self.error(
-            &span,
+            span,
             format!("`{name}` must be a finite number, found {value}"),
+        );
+        None
+    }
+
+    /// A number without unit, or an angle in degrees, within a range.
+    pub fn within(
+        &mut self,
+        field: &Field<f64>,
+        name: &str,
+        range: std::ops::RangeInclusive<f64>,
+    ) -> Option<(f64, Span)> {
+        let (value, span) = self.number(field, name)?;
+        if range.contains(&value) {
+            return Some((value, span));
+        }
+        let (least, most) = (range.start(), range.end());
+        self.error(
+            &span,
+            format!("`{name}` is {value}; it must be from {least} to {most}"),
         );
         None
     }
@@ -129,9 +156,17 @@ impl<'a> Reader<'a> {
         name: &str,
         least: f64,
     ) -> Option<(f64, Span)> {
-        let (value, span) = self.length(field, name)?;
+        let (&value, span) = self.given(field)?;
+        let value = self.measured(value, name, least, &span)?;
+        Some((value, span))
+    }
+
+    /// A number at `span` as a length of at least `least` millimetres.
+    pub fn measured(&mut self, value: f64, name: &str, least: f64, span: &Span) -> Option<f64> {
+        let value = self.finite(value, name, span)?;
+        let value = self.scaled(value, name, span)?;
         if value >= least {
-            return Some((value, span));
+            return Some(value);
         }
         let wanted = if least > 0.0 {
             format!("be at least {least} mm")
@@ -139,7 +174,7 @@ impl<'a> Reader<'a> {
             "not be negative".to_string()
         };
         self.error(
-            &span,
+            span,
             format!("`{name}` is {} mm; it must {wanted}", short(value)),
         );
         None

@@ -1,22 +1,25 @@
 //! From scene text to a [`Scene`] in which nothing is left to decide.
 //!
-//! Takes text and a way to read model files; gives the scene or *all* of its problems in the order of the text.
+//! Takes text and a way to read the files it names; gives the scene or *all* of its problems in the order of the text.
 //! After it: lengths are millimetres, names are unique and fit for files, numbers are finite and in range, meshes are
 //! in place, pillars neither overlap nor float, eyes stand in the open.
 
 use super::checks::{self, Eye};
+use super::document::{self, Document};
+use super::forest::{self, Around};
 use super::placing::{self, Placing};
-use super::raw::{List, RawModel, RawScene, RawView, Wanted};
+use super::raw::{List, RawModel, RawScene, RawView};
 use super::reader::{Reader, Span, error_at, nearest, printable, short};
-use super::spanned::{self, Field};
-use super::{defaults, explain, lexer, names, options, supports, tree};
+use super::spanned::Field;
+use super::{defaults, lexer, names, options};
 use crate::diag::{Diagnostic, Place, Severity, Warned};
 use crate::mesh::TriMesh;
+use crate::planner::Adjustment;
 use crate::scene::Scene;
 use crate::view::{PlacedModel, View};
 use glam::DVec3;
 
-/// Reads a model file by the name the scene gives.
+/// Reads a file, a model or a layout, by the name the scene gives.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Diagnostic>;
 
 /// A model as the scene describes it.
@@ -41,38 +44,46 @@ struct Draft {
     colour: [u8; 3],
 }
 
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Its pillars stand where they are, or are to be found.
+    Build,
+    /// Its pillars are a first draft: where they stand in each other's way is no mistake.
+    Mend,
+}
+
 /// Reads and checks a whole scene. Places of problems are byte ranges of `text` after a byte order mark.
 ///
 /// # Errors
 /// Every problem found, warnings among them, at least one of them an error.
 pub fn resolve(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>> {
+    resolve_for(text, read, Purpose::Build)
+}
+
+/// As [`resolve`], but pillars that the scene lists are the given ones of a [`Brief`](crate::planner::Brief), free to be moved:
+/// those that overlap or stand beside the base are what is to be mended.
+///
+/// # Errors
+/// As [`resolve`].
+pub fn resolve_to_mend(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>> {
+    resolve_for(text, read, Purpose::Mend)
+}
+
+fn resolve_for(
+    text: &str,
+    read: ReadFile,
+    purpose: Purpose,
+) -> Result<Warned<Scene>, Vec<Diagnostic>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut text = text.to_string();
-    let mut unknown: Vec<Diagnostic> = Vec::new();
-    let (mut problems, mut scene) = attempt(&text, read);
-    // A struct with an unknown field tells nothing else: read on without such fields.
-    for _ in 0..ROUNDS {
-        let (fresh, rest): (Vec<_>, Vec<_>) = problems.into_iter().partition(is_unknown_field);
-        problems = rest;
-        if fresh.is_empty() {
-            break;
+    let (problems, scene) = document::read(text, |text| match parse(text) {
+        Err(problems) => (problems, None),
+        Ok(raw) => {
+            let mut reader = Reader::new(text, SCENE);
+            let scene = build(&mut reader, &raw, read, purpose);
+            (reader.problems, scene)
         }
-        text = fresh.iter().fold(text, |text, problem| {
-            tree::without_field(&text, start(problem))
-        });
-        unknown.extend(fresh);
-        (problems, scene) = attempt(&text, read);
-    }
-    // `pich` is one mistake, not an unknown field and a missing `pitch`.
-    let meant = |p: &Diagnostic| {
-        unknown
-            .iter()
-            .any(|u| meant_field(u).is_some_and(|g| p.message.ends_with(&format!("has no `{g}`"))))
-    };
-    problems.retain(|p| !meant(p));
-    problems.extend(unknown);
-    problems.sort_by_key(start);
-    problems.dedup();
+    });
     match scene {
         Some(value) if problems.iter().all(|d| d.severity == Severity::Warning) => Ok(Warned {
             value,
@@ -82,93 +93,21 @@ pub fn resolve(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnost
     }
 }
 
-/// How often a scene is read again without its unknown fields; deeper nests of them are not worth more.
-const ROUNDS: usize = 4;
-
-fn attempt(text: &str, read: ReadFile) -> (Vec<Diagnostic>, Option<Scene>) {
-    match parse(text) {
-        Err(problems) => (problems, None),
-        Ok(raw) => {
-            let mut reader = Reader::new(text);
-            let scene = build(&mut reader, &raw, read);
-            (reader.problems, scene)
-        }
-    }
-}
-
-/// Byte at which a problem's place starts; problems without a place in the text come last.
-fn start(problem: &Diagnostic) -> usize {
-    match &problem.place {
-        Some(Place::Scene(span)) => span.start,
-        _ => usize::MAX,
-    }
-}
-
-fn is_unknown_field(problem: &Diagnostic) -> bool {
-    problem.message.starts_with(explain::UNKNOWN_FIELD)
-}
-
-/// The field that was meant by an unknown one, if its message guesses.
-fn meant_field(unknown: &Diagnostic) -> Option<&str> {
-    unknown
-        .message
-        .split_once("did you mean `")?
-        .1
-        .split('`')
-        .next()
-}
+/// What messages call the text.
+const SCENE: &str = "scene";
 
 /// Text to raw scene.
 fn parse(text: &str) -> Result<RawScene, Vec<Diagnostic>> {
-    let tokens = screen(text).map_err(|problem| vec![problem])?;
-    let first = tokens.first().map_or(0..0, |t| t.span.clone());
-    let whole = 0..text.len();
-    match text.as_bytes().get(first.start) {
-        Some(b'{') => {
-            return Err(vec![
-                error_at(&first, "this looks like JSON; scenes are RON").help("structs stand in round brackets and field names without quotes: ( units: mm, views: [ ... ] )"),
-            ]);
-        }
-        Some(b'(' | b'#') => {}
-        _ => {
-            let found = printable(text[first.start..].lines().next().unwrap_or(""));
-            return Err(vec![error_at(
-                &first,
-                format!("expected {}, found `{found}`", RawScene::WANTED),
-            )]);
-        }
-    }
-    spanned::options()
-        .from_str(text)
-        .map_err(|error| explain::explain(text, &whole, &error, RawScene::WANTED))
+    Document::new(
+        text,
+        SCENE,
+        "`pillarforest init` writes a scene to start from",
+    )
+    .map_err(|problem| vec![problem])?
+    .parse(b'(')
 }
 
-/// Refuses what is no scene at all, before RON sees it.
-fn screen(text: &str) -> Result<Vec<lexer::Token>, Diagnostic> {
-    if text.trim().is_empty() {
-        return Err(Diagnostic::error("the scene file is empty")
-            .help("`pillarforest init` writes a scene to start from"));
-    }
-    if text.len() > defaults::LONGEST_TEXT {
-        return Err(Diagnostic::error(format!(
-            "the scene is {} MB of text; the limit is {} MB",
-            text.len() >> 20,
-            defaults::LONGEST_TEXT >> 20
-        )));
-    }
-    let tokens = lexer::tokens(text).map_err(|broken| explain::broken(text, broken))?;
-    if tokens.is_empty() {
-        return Err(error_at(
-            &(0..text.trim_end().len().min(80)),
-            "the scene holds nothing but comments",
-        )
-        .help("`pillarforest init` writes a scene to start from"));
-    }
-    lexer::balanced(&tokens).map_err(|broken| explain::broken(text, broken))?;
-    Ok(tokens)
-}
-
-fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
+fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) -> Option<Scene> {
     let whole = lexer::trimmed(reader.text);
     if let Some((unit, _)) = reader.given(&raw.units) {
         (reader.unit, reader.unit_name) = placing::unit(*unit);
@@ -176,38 +115,52 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile) -> Option<Scene> {
     let title = title(reader, &raw.title);
     let mut models = models(reader, &raw.models, &whole);
     let drafts = drafts(reader, &raw.views, &whole, models.as_deref());
-    let supports = supports::supports(reader, raw, &whole);
     let printer = options::printer(reader, &raw.printer);
+    let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
+    let around = Around {
+        read,
+        purpose,
+        printer: &printer,
+        views: drafts.iter().map(|d| d.name.as_str()).collect(),
+        view_count: view_count(raw).unwrap_or(drafts.len()),
+    };
+    let forest = forest::forest(reader, raw, &whole, &around);
     let energy = options::energy(reader, &raw.energy);
-    let steps = options::steps(reader, &raw.energy, supports.pillars.len(), &printer);
+    let steps = options::steps(reader, &raw.energy, forest.most_pillars(), &printer);
     let contested = options::contested(reader, &raw.contested);
     let output = options::output(reader, &raw.output);
-    let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
-    checks::all(
-        reader,
-        &supports.pillars,
-        supports.base.as_ref(),
-        &eyes,
-        &printer,
-    );
+    forest.check(reader, &eyes, &around);
     for model in models.iter_mut().flatten() {
         load(reader, model, read);
     }
+    let adjusted = forest.adjusted(&around.views);
     let views = drafts
         .into_iter()
-        .map(|draft| view(reader, draft, models.as_deref().unwrap_or(&[])))
+        .zip(&adjusted)
+        .map(|(draft, adjusted)| view(reader, draft, models.as_deref().unwrap_or(&[]), adjusted))
         .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
-    sound.then(|| Scene {
+    let (supports, brief) = forest.finished();
+    sound.then_some(Scene {
         title,
         views,
-        supports: supports.solids(),
+        supports,
+        brief,
+        adjusted,
         energy,
         steps,
         contested,
         printer,
         output,
     })
+}
+
+/// How many views the scene lists, readable or not.
+fn view_count(raw: &RawScene) -> Option<usize> {
+    match &raw.views {
+        Field::Given(list) => list.value.as_ref().ok().map(Vec::len),
+        Field::Missing => None,
+    }
 }
 
 fn title(reader: &mut Reader, field: &Field<String>) -> String {
@@ -463,7 +416,7 @@ fn eye(draft: &Draft) -> Eye {
 }
 
 /// Places a view's models and completes it; models that failed to load are left out (their errors are noted already).
-fn view(reader: &mut Reader, draft: Draft, models: &[Model]) -> View {
+fn view(reader: &mut Reader, draft: Draft, models: &[Model], adjusted: &Adjustment) -> View {
     let mut placed = Vec::new();
     for (name, _) in &draft.models {
         let Some(model) = models.iter().find(|m| m.name == *name) else {
@@ -488,6 +441,7 @@ fn view(reader: &mut Reader, draft: Draft, models: &[Model]) -> View {
         .map(|(p, _)| *p)
         .or_else(|| middle(&placed))
         .unwrap_or(DVec3::ZERO);
+    placing::adjust(&mut placed, adjusted);
     check_sight(reader, &draft, look_at, &placed);
     View {
         name: draft.name,
@@ -499,10 +453,7 @@ fn view(reader: &mut Reader, draft: Draft, models: &[Model]) -> View {
 }
 
 fn middle(models: &[PlacedModel]) -> Option<DVec3> {
-    let bounds = models.iter().filter_map(|m| m.mesh.bounds());
-    bounds
-        .reduce(|(l, h), (lo, hi)| (l.min(lo), h.max(hi)))
-        .map(|(lo, hi)| (lo + hi) / 2.0)
+    placing::extent(models).map(|(lo, hi)| (lo + hi) / 2.0)
 }
 
 /// The eye must have a direction and every model must lie wholly in front of it. Says nothing about an eye that is wrong already.
@@ -510,7 +461,7 @@ fn check_sight(reader: &mut Reader, draft: &Draft, look_at: DVec3, models: &[Pla
     let known = reader
         .problems
         .iter()
-        .any(|p| p.is_error() && start(p) == draft.eye_span.start);
+        .any(|p| p.is_error() && document::start(p) == draft.eye_span.start);
     if known || models.is_empty() {
         return;
     }

@@ -74,6 +74,7 @@ pub fn sections() -> Vec<Section> {
         scene_sections(),
         pillar_sections(),
         place_sections(),
+        planning_sections(),
         other_sections(),
     ]
     .into_iter()
@@ -97,7 +98,7 @@ fn scene_sections() -> Vec<Section> {
             field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
             field("models", "[model, ...]", REQUIRED, "what is to be seen"),
             field("views", "[view, ...]", REQUIRED, "from where"),
-            field("pillars", "[pillars, ...]", REQUIRED, "what carries it"),
+            field("pillars", "[pillars, ...] | Auto(...) | File(text)", REQUIRED, "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
             field("base", "Disc(...) | Rectangle(...) | None", "Disc()", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
             field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
@@ -211,6 +212,65 @@ fn place_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
+fn planning_sections() -> Vec<Section> {
+    let ([fewest, most], matters) = (defaults::COUNT, defaults::MATTERS);
+    vec![
+        section("Auto(...)", "Pillars that `plan` and `build` find for the views: all models covered, nothing in the way.", vec![
+            field("region", "Disc(...) | Rectangle(...) | Polygon(...)", format!("the base less {} mm, if its size is given; else Disc(radius: {} mm)", defaults::REGION_RIM, defaults::REGION_RADIUS), "where they may stand, with their whole width"),
+            field("shapes", "[Round(...) | Polygon(...) | ..., ...]", format!("[Round(radius: {} mm)]", defaults::PLANNED_RADIUS), "what they may be, as in pillars"),
+            field("sizes", "factor | (factor, factor)", "1", "on the lengths of every shape, from the smallest to the largest in even steps"),
+            field("height", "length | (length, length)", format!("{} mm", defaults::PILLAR_HEIGHT), "above the base, from the lowest to the highest"),
+            field("depth", "depth", "the scene's", "fields given here replace the scene's"),
+            field("gap", "length", format!("{} mm", defaults::GAP), "room between any two solids"),
+            field("count", "count | (count, count)", format!("({fewest}, {most})"), "fewest and most pillars, fixed ones included"),
+            field("fixed", "[pillars, ...]", "[]", "pillars that stay; the others are found around them"),
+            field("seed", "count", defaults::SEED, "of the search: the same seed gives the same layout"),
+            field("tries", "count", format!("{} / views", defaults::TRIES), "candidate layouts, 1 to 10000000"),
+            field("seconds", "number", defaults::SECONDS, "wall-clock time after which the search ends with what it has"),
+            field("hidden_from", "degrees", defaults::HIDDEN_FROM, "how far off its eye a model is to be hidden, 1 to 90"),
+            field("eye_tolerance", "length | [length, ...]", "0", "how far every eye, or each, must be able to move sideways"),
+            field("matters", "matters", "see matters", "what the search looks for"),
+            field("models", "models", "see models", "how far a plan may change the models of each view"),
+        ]),
+        section("Disc(...) as region", "A disc.", vec![
+            field("radius", "length", REQUIRED, "of the disc"),
+            field("centre", "(x, y)", "(0, 0)", "of the disc"),
+        ]),
+        section("Rectangle(...) as region", "A rectangle.", vec![
+            field("width", "length", REQUIRED, "along x before the turn"),
+            field("depth", "length", REQUIRED, "along y before the turn"),
+            field("centre", "(x, y)", "(0, 0)", "middle of the rectangle"),
+            field("turn", "degrees", "0", "about the centre"),
+        ]),
+        section("Polygon(...) as region", "Any simple polygon.", vec![
+            field("points", "[(x, y), ...]", REQUIRED, "corners in order"),
+        ]),
+        section("matters", "Weights: 0 does not matter, 2 matters twice as much as 1.", vec![
+            field("camouflage", "number", matters.camouflage, "models are hard to recognise from elsewhere"),
+            field("tolerance", "number", matters.tolerance, "eyes may move"),
+            field("pillars", "number", matters.pillars, "few pillars"),
+            field("spread", "number", matters.spread, "pillars are spread evenly"),
+        ]),
+        section("models", "Limits, to either side, within which a plan may change the models of a view together.", vec![
+            field("turn", "degrees", "0", "about the vertical"),
+            field("scale", "factor", "1", "larger by this, or smaller by its inverse; 1 to 2"),
+            field("shift", "length", "0", "along the ground"),
+        ]),
+        section("layout file", "What `plan` writes and File(\"layout.ron\") reads: [pillars, ...], or a struct.", vec![
+            field("units", "mm | cm | m | inch", "mm", "of every length in that file"),
+            field("pillars", "[pillars, ...]", REQUIRED, "as if they stood in the scene"),
+            field("adjust", "[adjustment, ...]", "[]", "changes to the models of views"),
+        ]),
+        section("adjustment", "The models of a view together, about the middle of their underside, after they are placed.", vec![
+            field("view", "text", REQUIRED, "name of the view"),
+            field("turn", "degrees", "0", "about the vertical"),
+            field("scale", "factor", "1", "on their size"),
+            field("shift", "(x, y)", "(0, 0)", "along the ground"),
+        ]),
+    ]
+}
+
+#[rustfmt::skip] // a table
 fn other_sections() -> Vec<Section> {
     let (printer, output, steps) = (defaults::PRINTER, defaults::OUTPUT, defaults::STEPS);
     vec![
@@ -312,6 +372,20 @@ mod tests {
             ("Grid(...)", fields_of::<raw::RawGrid>()),
             ("Ring(...)", fields_of::<raw::RawRing>()),
             ("Hex(...)", fields_of::<raw::RawHex>()),
+            ("Auto(...)", fields_of::<raw::RawAuto>()),
+            ("Disc(...) as region", fields_of::<raw::RawDiscRegion>()),
+            (
+                "Rectangle(...) as region",
+                fields_of::<raw::RawRectangleRegion>(),
+            ),
+            (
+                "Polygon(...) as region",
+                fields_of::<raw::RawPolygonRegion>(),
+            ),
+            ("matters", fields_of::<raw::RawMatters>()),
+            ("models", fields_of::<raw::RawFreedom>()),
+            ("layout file", fields_of::<raw::RawLayout>()),
+            ("adjustment", fields_of::<raw::RawAdjust>()),
             ("Disc(...)", fields_of::<raw::RawDisc>()),
             ("Rectangle(...) as base", fields_of::<raw::RawSlab>()),
             ("Normal(...)", fields_of::<raw::RawNormal>()),

@@ -36,15 +36,26 @@ pub fn options() -> ron::Options {
         .with_default_extension(Extensions::UNWRAP_NEWTYPES | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
-impl<'de, T: DeserializeOwned> Deserialize<'de> for Spanned<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = <&'de RawValue>::deserialize(deserializer)?.get_ron();
-        let text = &text[lexer::trimmed(text)];
-        Ok(Self {
+/// The text of a value without spaces and comments around it.
+pub fn own_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'de str, D::Error> {
+    let text = <&'de RawValue>::deserialize(deserializer)?.get_ron();
+    Ok(&text[lexer::trimmed(text)])
+}
+
+impl<T: DeserializeOwned> Spanned<T> {
+    /// The value that `text`, a part of the parsed text, stands for.
+    pub fn of(text: &str) -> Self {
+        Self {
             address: text.as_ptr() as usize,
             length: text.len(),
             value: options().from_str(text),
-        })
+        }
+    }
+}
+
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Spanned<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        own_text(deserializer).map(Self::of)
     }
 }
 

@@ -100,7 +100,7 @@ fn entry(tokens: &[Token]) -> Option<Entry> {
 }
 
 /// Tokens of the text after `#![...]` lines.
-fn skip_attribute(text: &str) -> Vec<Token> {
+pub fn skip_attribute(text: &str) -> Vec<Token> {
     let mut tokens = lexer::tokens(text).unwrap_or_default();
     while tokens
         .first()

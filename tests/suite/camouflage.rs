@@ -157,7 +157,7 @@ const TWO_BLOCKS: &str = r#"(
 fn built(text: &str) -> (Build, serde_json::Value) {
     let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
     let scene = scene::resolve(text, &read).expect("a scene").value;
-    let build = run(&scene, Goal::All, &|_, _| {}).expect("a forest");
+    let build = run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest");
     let file = build.files.iter().find(|f| f.path == "report.json");
     let report = serde_json::from_slice(&file.expect("a report").bytes).unwrap();
     (build, report)
@@ -201,7 +201,7 @@ fn a_scene_may_do_without_camouflage_but_not_without_tolerance() {
     let scene_only = |goal| {
         let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
         let scene = scene::resolve(TWO_BLOCKS, &read).expect("a scene").value;
-        run(&scene, goal, &|_, _| {}).expect("a plan")
+        run(&scene, goal, &|_, _| {}, &|| false).expect("a plan")
     };
     let bare = &scene_only(Goal::Plan).files[0];
     assert!(!String::from_utf8_lossy(&bare.bytes).contains("disc at an eye"));

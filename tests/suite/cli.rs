@@ -232,6 +232,8 @@ fn schema_help_and_completions_print() {
         "init",
         "check",
         "build",
+        "plan",
+        "repair",
         "view",
         "render",
         "inspect",

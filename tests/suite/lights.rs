@@ -367,7 +367,7 @@ fn a_scene_may_do_without_light() {
     let built = |text: &str| {
         let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
         let scene = scene::resolve(text, &read).expect("a scene").value;
-        run(&scene, Goal::All, &|_, _| {}).expect("a forest")
+        run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest")
     };
     let dark = built(&scene::set(ONE_BLOCK, "output.lights=false").expect("a field"));
     let report = |build: &pillarforest::compile::Build| -> serde_json::Value {

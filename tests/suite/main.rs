@@ -16,6 +16,7 @@ mod meshes;
 mod numerics;
 mod planner;
 mod planning_pictures;
+mod planning_scene;
 mod plans;
 mod printability;
 mod properties;

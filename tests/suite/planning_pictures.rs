@@ -3,7 +3,7 @@
 use crate::plans::{Case, creatures, crowd, mended, nothing};
 use glam::DVec2;
 use pillarforest::diagram::{Plan, planning};
-use pillarforest::planner::{Faults, Frame, Pillar, Trade};
+use pillarforest::planner::{Frame, Pillar, Trade};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
@@ -448,7 +448,7 @@ fn a_narrow_trade_off_has_a_linear_axis() {
     assert!(labels.contains(&"tolerance of the eye in mm"));
     assert!(!labels.iter().any(|l| l.starts_with("chosen")));
     assert!(!labels.contains(&"start"), "the search began with faults");
-    case.planned.frames[0].faults = Faults::default();
+    case.planned.frames[0].faults = Vec::new();
     assert!(labels_of(&trade(&case)).contains(&"start".to_owned()));
 }
 

@@ -3,10 +3,9 @@
 use crate::shapes;
 use glam::{DVec2, DVec3};
 use pillarforest::diag::Diagnostic;
-use pillarforest::planner::subject::Subject;
-use pillarforest::planner::survey::survey;
 use pillarforest::planner::{
-    Adjustment, Brief, Change, Ended, Frame, Freedom, Matters, Pillar, Planned, Shape, Trade, Worth,
+    Adjustment, Brief, Care, Change, Ended, Frame, Freedom, Matters, Pillar, Planned, Region,
+    Shape, Subject, Survey, Trade, Worth,
 };
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::UNSEEN_RAD;
@@ -33,7 +32,7 @@ pub fn creatures() -> Case {
 fn make_creatures() -> Case {
     let scene = four_creatures();
     let (brief, pillars) = brief_of(&scene);
-    let subjects: Vec<Subject> = scene.views.iter().map(Subject::new).collect();
+    let subjects: Vec<Subject> = subjects_of(&scene.views);
     let last = 30;
     let frames = (0..=last).map(|k| {
         let shake = 12.0 * (1.0 - f64::from(k) / f64::from(last)).powi(2);
@@ -117,6 +116,7 @@ fn brief_of(scene: &Scene) -> (Brief, Vec<Pillar>) {
                     shape: 0,
                     owner: scene.views.iter().position(|v| v.name == owner),
                     fixed: pillars.len() % 7 == 3,
+                    given: None,
                 });
             }
         }
@@ -127,7 +127,8 @@ fn brief_of(scene: &Scene) -> (Brief, Vec<Pillar>) {
 
 fn brief(region: Vec<DVec2>, shapes: Vec<Shape>, views: usize) -> Brief {
     Brief {
-        region,
+        region: Region::new(region),
+        care: Care::FOUND,
         allowed: shapes.len(),
         shapes,
         gap: 0.5,
@@ -148,6 +149,11 @@ fn brief(region: Vec<DVec2>, shapes: Vec<Shape>, views: usize) -> Brief {
     }
 }
 
+fn subjects_of(views: &[View]) -> Vec<Subject> {
+    let of = |v: &View| Subject::in_plan(v, &v.target());
+    views.iter().map(of).collect()
+}
+
 /// A layout with a mark wherever an eye meets none of its own pillars.
 fn frame(
     subjects: &[Subject],
@@ -156,7 +162,8 @@ fn frame(
     pillars: Vec<Pillar>,
     tries: u64,
 ) -> Frame {
-    let found = survey(subjects, brief, &pillars);
+    let all: Vec<&Subject> = subjects.iter().collect();
+    let found = Survey::new(&all, brief, &pillars);
     let mut marks = Vec::new();
     for (v, runs) in found.runs.iter().enumerate() {
         for run in runs {
@@ -249,6 +256,7 @@ pub fn crowd(views: usize, each: usize, name: &str) -> Case {
                 shape: 0,
                 owner: Some(i % views),
                 fixed: i % 11 == 5,
+                given: None,
             }
         })
         .collect();
@@ -273,7 +281,7 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
 
 /// A case whose frames all survey the same pillars, shaken less and less.
 fn case(views: Vec<View>, brief: Brief, pillars: Vec<Pillar>, steps: u32) -> Case {
-    let subjects: Vec<Subject> = views.iter().map(Subject::new).collect();
+    let subjects: Vec<Subject> = subjects_of(&views);
     let frames: Vec<Frame> = (0..=steps)
         .map(|k| {
             let shake = 3.0 * f64::from(steps - k) / f64::from(steps.max(1));
@@ -343,6 +351,7 @@ pub fn mended() -> Case {
         shape,
         owner,
         fixed: false,
+        given: None,
     };
     brief.given = vec![
         pillar(-12.0, -20.0, 0, Some(0)),
@@ -359,7 +368,7 @@ pub fn mended() -> Case {
     pillars.remove(6);
     pillars.push(pillar(-18.0, 2.0, 1, Some(1)));
     let mut case = case(vec![far, near], brief, pillars.clone(), 0);
-    let subjects: Vec<Subject> = case.views.iter().map(Subject::new).collect();
+    let subjects: Vec<Subject> = subjects_of(&case.views);
     let start = frame(
         &subjects,
         &case.brief,

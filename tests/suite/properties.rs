@@ -286,7 +286,7 @@ fn tried(draft: &Draft) -> Result<End, String> {
     let text = draft.text();
     let run = || {
         let scene = scene::resolve(&text, &model)?.value;
-        let build = compile::run(&scene, Goal::All, &|_, _| {})?;
+        let build = compile::run(&scene, Goal::All, &|_, _| {}, &|| false)?;
         Ok((scene, build))
     };
     let result: Result<(Scene, Build), Vec<Diagnostic>> =

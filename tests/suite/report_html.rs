@@ -30,7 +30,7 @@ const TWO_BLOCKS: &str = r#"(
 fn built(text: &str) -> Build {
     let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
     let scene = scene::resolve(text, &read).expect("a scene").value;
-    run(&scene, Goal::All, &|_, _| {}).expect("a forest")
+    run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest")
 }
 
 fn bytes<'a>(build: &'a Build, path: &str) -> Option<&'a [u8]> {

@@ -54,7 +54,8 @@ fn resolved(name: &str) -> Scene {
 }
 
 fn made(scene: &Scene, goal: Goal) -> Build {
-    run(scene, goal, &|_, _| {}).unwrap_or_else(|problems| panic!("{}: {problems:?}", scene.title))
+    run(scene, goal, &|_, _| {}, &|| false)
+        .unwrap_or_else(|problems| panic!("{}: {problems:?}", scene.title))
 }
 
 fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -312,7 +313,7 @@ fn a_layer_without_core_is_told_with_view_and_pillar() {
             layer.core = 3.5;
         }
     }
-    let problems = run(&scene, Goal::Check, &|_, _| {}).expect_err("no core is left");
+    let problems = run(&scene, Goal::Check, &|_, _| {}, &|| false).expect_err("no core is left");
     let pillars = scene.supports.iter().filter(|s| s.layer.is_some());
     for (pillar, problem) in pillars.zip(&problems) {
         assert!(

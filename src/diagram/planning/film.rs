@@ -232,7 +232,7 @@ fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
     let error = format!("forecast error {} off", words::angle(story.brief));
     let list: [(&str, Value, Told); 4] = [
         ("tries", |f| f.tries as f64, |f| words::count(f.tries)),
-        ("faults", |f| f.faults.sum(), fault_figure),
+        ("faults", |f| words::wrong(&f.faults), fault_figure),
         (&error, |f| f.hidden_deg, |f| words::degrees(f.hidden_deg)),
         (
             "tolerance of the eye",
@@ -265,7 +265,7 @@ type Value = fn(&Frame) -> f64;
 type Told = fn(&Frame) -> String;
 
 fn fault_figure(frame: &Frame) -> String {
-    let sum = frame.faults.sum();
+    let sum = words::wrong(&frame.faults);
     if sum > 0.0 {
         words::millimetres(sum)
     } else {

@@ -158,7 +158,7 @@ fn start(planned: &Planned) -> Option<Trade> {
         .first()
         .filter(|_| planned.frames.len() > 1)?;
     let good =
-        first.faults.sum() <= 0.0 && first.tolerance_mm.is_finite() && first.hidden_deg.is_finite();
+        first.faults.is_empty() && first.tolerance_mm.is_finite() && first.hidden_deg.is_finite();
     good.then_some(Trade {
         tolerance_mm: first.tolerance_mm,
         hidden_deg: first.hidden_deg,

@@ -39,7 +39,7 @@ impl<'a> Map<'a> {
     }
 
     pub fn ground(&self, drawing: &mut Drawing) {
-        let outline = self.page.outline(&self.story.brief.region);
+        let outline = self.page.outline(self.story.brief.region.outline());
         drawing.polygon(
             &outline,
             Some(BASE),

@@ -210,7 +210,7 @@ fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
     }
     if shown
         .iter()
-        .all(|f| f.faults.sum() <= 0.0 && f.marks.is_empty())
+        .all(|f| f.faults.is_empty() && f.marks.is_empty())
     {
         return;
     }

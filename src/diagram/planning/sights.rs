@@ -2,7 +2,7 @@
 
 use super::story::Story;
 use crate::diagram::{Run, Sight};
-use crate::planner::{Frame, skyline};
+use crate::planner::{Frame, Run as Stretch, entry};
 use glam::DVec2;
 use std::f64::consts::PI;
 
@@ -33,13 +33,7 @@ pub fn sight(story: &Story, frame: &Frame, v: usize, arc: usize) -> Sight {
     sight
 }
 
-fn hits(
-    story: &Story,
-    frame: &Frame,
-    sight: &Sight,
-    run: &skyline::Run,
-    arc: usize,
-) -> Vec<(f64, f64)> {
+fn hits(story: &Story, frame: &Frame, sight: &Sight, run: &Stretch, arc: usize) -> Vec<(f64, f64)> {
     let nudge = NUDGE.min((run.to - run.from) / 4.0);
     let (from, to) = (run.from + nudge, run.to - nudge);
     let Some(pillar) = run.pillar.and_then(|i| frame.pillars.get(i)) else {
@@ -61,7 +55,7 @@ fn hits(
     bearings.push(to);
     let distance = |bearing: f64| {
         let way = sight.direction(bearing);
-        let met = skyline::entry(sight.eye, way, pillar.at, shape);
+        let met = entry(sight.eye, way, pillar.at, shape).map(|m| m.0);
         // Only rounding misses: the nearest point to the axis will do.
         met.unwrap_or_else(|| way.dot(pillar.at - sight.eye).max(0.0))
     };

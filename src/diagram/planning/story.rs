@@ -33,7 +33,7 @@ impl<'a> Story<'a> {
             let profile = &brief.shapes[p.shape].profile;
             profile.iter().map(|q| p.at + *q)
         });
-        let circle = circle(brief.region.iter().copied().chain(outlines));
+        let circle = circle(brief.region.outline().iter().copied().chain(outlines));
         let (keys, numbered) = keys(views);
         Self {
             title,
@@ -84,7 +84,7 @@ fn only_frame(planned: &Planned) -> Frame {
         tries: planned.tries,
         pillars: planned.pillars.clone(),
         runs: Vec::new(),
-        faults: Default::default(),
+        faults: Vec::new(),
         marks: Vec::new(),
         hidden_deg: least(|w| w.hidden_deg),
         tolerance_mm: least(|w| w.tolerance_mm[1]),

@@ -1,6 +1,6 @@
 //! Figures of a plan as people read them.
 
-use crate::planner::{Brief, Ended, Faults};
+use crate::planner::{Brief, Ended, Fault, Kind};
 
 /// A length: two digits that matter, none behind the point from 10 mm on. Endless is "any".
 pub fn millimetres(mm: f64) -> String {
@@ -54,29 +54,38 @@ pub fn angle(brief: &Brief) -> String {
 }
 
 /// Every kind of fault that there is, worst first.
-pub fn faults(faults: &Faults) -> Option<String> {
+pub fn faults(faults: &[Fault]) -> Option<String> {
     let kinds = [
-        (faults.uncovered, "uncovered"),
-        (faults.foreign, "on other views' pillars"),
-        (faults.loose, "overlap missing at cuts"),
-        (faults.narrow, "missing of narrow strips"),
-        (faults.beyond_ends, "above or below pillars"),
-        (faults.in_sight, "in other views' sight"),
-        (faults.tight, "of gaps missing"),
-        (faults.outside, "outside the region"),
-        (faults.open, "of cuts open too fast"),
+        (Kind::Uncovered, "uncovered"),
+        (Kind::Foreign, "on other views' pillars"),
+        (Kind::Loose, "overlap missing at cuts"),
+        (Kind::Narrow, "missing of narrow strips"),
+        (Kind::Ends, "above or below pillars"),
+        (Kind::Sight, "in other views' sight"),
+        (Kind::Tight, "of gaps missing"),
+        (Kind::Outside, "outside the region"),
+        (Kind::Open, "of cuts open too fast"),
     ];
-    let mut kinds: Vec<(f64, &str)> = kinds.into_iter().filter(|k| k.0 > 0.0).collect();
+    let sum = |kind: Kind| wrong(faults.iter().filter(|f| f.kind == kind));
+    let mut kinds: Vec<(f64, &str)> = kinds.map(|(kind, what)| (sum(kind), what)).to_vec();
+    kinds.retain(|k| k.0 > 0.0);
     kinds.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut list: Vec<String> = kinds
         .iter()
         .map(|(mm, what)| format!("{} {what}", millimetres(*mm)))
         .collect();
-    if faults.count > 0.0 {
-        let n = plural(faults.count as u64, "pillar");
+    let missing = sum(Kind::Count);
+    if missing > 0.0 {
+        let n = plural(missing as u64, "pillar");
         list.push(format!("{n} too many or too few"));
     }
     (!list.is_empty()).then(|| list.join(", "))
+}
+
+/// Of all faults together, millimetres.
+pub fn wrong<'a>(faults: impl IntoIterator<Item = &'a Fault>) -> f64 {
+    // Nothing at all sums to -0.
+    faults.into_iter().map(|f| f.mm).sum::<f64>() + 0.0
 }
 
 pub fn ended(ended: Ended) -> &'static str {

@@ -1,0 +1,106 @@
+//! Depth layers: what the scene asks for, and what a pillar of some shape makes of it.
+
+use super::defaults;
+use super::raw::{RawDatum, RawDepth};
+use super::reader::{Reader, Span, error_at, short};
+use super::shapes;
+use crate::support::{Datum, Layer};
+use glam::DVec2;
+
+/// A depth layer as far as the scene gives it, millimetres.
+#[derive(Clone, Default)]
+pub struct Wish {
+    /// Where the scene asks for it.
+    span: Option<Span>,
+    datum: Option<Datum>,
+    front: Option<f64>,
+    back: Option<f64>,
+    core: Option<f64>,
+}
+
+impl Wish {
+    /// The same for another text, in which it has no place.
+    pub fn placeless(&self) -> Self {
+        Self {
+            span: None,
+            ..self.clone()
+        }
+    }
+}
+
+/// What `raw` asks for; fields left out are taken from `under`.
+pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> Wish {
+    let datum = reader.given(&raw.from).map(|(from, _)| match from {
+        RawDatum::Axis => Datum::AxisPlane,
+        RawDatum::Surface => Datum::Surface,
+    });
+    let mut length = |field, name, under| {
+        reader
+            .length_from(field, name, 0.0)
+            .map(|(value, _)| value)
+            .or(under)
+    };
+    let front = length(&raw.front, "front", under.front);
+    let back = length(&raw.back, "back", under.back);
+    let core = length(&raw.core, "core", under.core);
+    if let (Some(front), Some(back)) = (front, back)
+        && front + back < 0.05
+    {
+        reader.problems.push(
+            error_at(
+                span,
+                format!(
+                    "the depth layer is {} mm thick (front + back): no relief fits in",
+                    short(front + back)
+                ),
+            )
+            .help("a few millimetres are usual: (front: 5, back: 2)"),
+        );
+    }
+    Wish {
+        span: Some(span.clone()),
+        datum: datum.or(under.datum),
+        front,
+        back,
+        core,
+    }
+}
+
+/// The layer of a pillar: defaults filled in; an error if it does not leave the pillar standing. `entry` is the pillars' place.
+pub fn settled(
+    reader: &mut Reader,
+    profile: &[DVec2],
+    round: bool,
+    wish: &Wish,
+    entry: &Span,
+) -> Layer {
+    let span = wish.span.as_ref().unwrap_or(entry);
+    let reach = profile.iter().map(|p| p.length()).fold(0.0, f64::max);
+    let width = shapes::narrowest(profile);
+    let datum = wish.datum.unwrap_or(defaults::LAYER.datum);
+    let (room, of) = match (datum, round) {
+        (Datum::AxisPlane, true) => (reach, "the radius"),
+        (Datum::AxisPlane, false) => (width / 2.0, "half the width"),
+        (Datum::Surface, _) => (width, "the width"),
+    };
+    let front = wish.front.unwrap_or(defaults::LAYER.front);
+    let core = wish
+        .core
+        .unwrap_or(defaults::LAYER.core.min(defaults::CORE_SHARE * room));
+    let back = wish
+        .back
+        .unwrap_or(defaults::LAYER.back.min(defaults::BACK_SHARE * room));
+    if back + core > room + 1e-6 {
+        let (back, core) = (short(back), short(core));
+        reader.problems.push(
+            error_at(span, format!("reliefs would cut the pillar through: back {back} mm + core {core} mm is more than {of}, {} mm", short(room)))
+                .help(format!("thicker pillars, or a smaller `back` or `core` in `depth`: back + core <= {}", short(room))),
+        );
+    }
+    Layer {
+        datum,
+        front,
+        back,
+        core,
+    }
+}
