@@ -99,6 +99,9 @@ pub struct Care {
     pub overlap: f64,
     /// Narrowest strip of relief.
     pub narrowest: f64,
+    /// What stays of a pillar behind a nearer one beside its carved part is a fin: none has a width between these, at which it would
+    /// not print. Narrower ones are too small to matter.
+    pub fins: [f64; 2],
     /// Room between a relief, wherever it lies in its layer, and solids other than its pillar.
     pub reliefs: f64,
 }
@@ -107,14 +110,16 @@ impl Care {
     /// For layouts found: polygons inside their circles and rounding to printable coordinates take a hundredth of the overlap, and
     /// strips are as wide as three lines of a 0.4 mm nozzle.
     pub const FOUND: Self = Self {
-        overlap: 0.3,
+        overlap: 0.25,
         narrowest: 1.2,
+        fins: [0.42, 1.0],
         reliefs: 0.5,
     };
     /// For layouts made by hand: what a build can just do with. Reliefs of neighbours may meet in a cut.
     pub const GIVEN: Self = Self {
         overlap: 0.02,
         narrowest: 0.4,
+        fins: [0.0, 0.0],
         reliefs: 0.0,
     };
 }

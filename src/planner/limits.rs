@@ -83,6 +83,7 @@ pub fn text(fault: &Fault, views: &[View]) -> String {
         Kind::Uncovered => format!("meets no pillar over {mm:.1} mm"),
         Kind::Foreign => format!("meets another view's pillar over {mm:.1} mm"),
         Kind::Loose => format!("lacks {mm:.2} mm of overlap behind a cut"),
+        Kind::Fin => "leaves too thin a rest of a pillar behind another".into(),
         Kind::Narrow => format!("has a strip {mm:.1} mm too narrow"),
         Kind::Ends => format!("looks {mm:.1} mm past the end of a pillar"),
         Kind::Sight => format!("has another view's relief {mm:.1} mm in its sight"),

@@ -275,7 +275,7 @@ fn worst_fault(
     };
     let survey = Survey::new(&[subject], &alone, &pillars);
     let counts =
-        |f: &&Fault| matches!(f.kind, Kind::Tight | Kind::Ends | Kind::Open | Kind::Narrow);
+        |f: &&Fault| matches!(f.kind, Kind::Fin | Kind::Tight | Kind::Ends | Kind::Open | Kind::Narrow);
     survey
         .faults
         .iter()

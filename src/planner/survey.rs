@@ -56,6 +56,8 @@ pub enum Kind {
     Loose,
     /// A strip is too narrow.
     Narrow,
+    /// What stays of a pillar behind another is too thin.
+    Fin,
     /// Rays pass above a pillar's top or below its foot.
     Ends,
     /// A relief stands in sight lines of another view.
@@ -226,6 +228,10 @@ impl OfView<'_> {
                 let mm = self.brief.care.overlap - own.max(behind) * shadow.distance;
                 let mm = if j.is_some() { mm / 2.0 } else { mm };
                 self.note(faults, Kind::Loose, [Some(i), j], mm, place);
+                let [thin, thick] = self.brief.care.fins;
+                let width = own * shadow.distance;
+                let mm = (width - thin).min(thick - width);
+                self.note(faults, Kind::Fin, [Some(i), j], if j.is_some() { mm } else { 0.0 }, place);
             }
         }
     }

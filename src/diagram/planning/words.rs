@@ -60,6 +60,7 @@ pub fn faults(faults: &[Fault]) -> Option<String> {
         (Kind::Foreign, "on other views' pillars"),
         (Kind::Loose, "overlap missing at cuts"),
         (Kind::Narrow, "missing of narrow strips"),
+        (Kind::Fin, "of thin rests of pillars"),
         (Kind::Ends, "above or below pillars"),
         (Kind::Sight, "in other views' sight"),
         (Kind::Tight, "of gaps missing"),
