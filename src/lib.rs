@@ -36,7 +36,8 @@
 //!
 //! - A module names only modules that stand above it in the list below.
 //! - Nothing here touches files, the clock or the terminal: the binary (`main.rs`, `cli/`) does.
-//! - The same scene gives the same bytes, whatever the thread count: no hash order, no random numbers, fixed orders of reduction.
+//! - The same scene gives the same bytes, whatever the thread count: no hash order, fixed orders of reduction, random numbers only in
+//!   [`planner`], from the scene's seed.
 //! - Printable formats take [`mesh::Solid`], whose only constructor checks closed, oriented, 2-manifold, free of
 //!   self-intersection and positive volume after rounding to f32.
 //! - One library, one module: `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in `mimic::solve`, `manifold-rust` in

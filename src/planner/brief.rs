@@ -112,7 +112,7 @@ impl Care {
     pub const FOUND: Self = Self {
         overlap: 0.25,
         narrowest: 1.2,
-        fins: [0.42, 1.0],
+        fins: [0.42, 1.8],
         reliefs: 0.5,
     };
     /// For layouts made by hand: what a build can just do with. Reliefs of neighbours may meet in a cut.

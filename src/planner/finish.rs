@@ -21,9 +21,9 @@ const ANGLES_DEG: [f64; 14] = [
     0.0, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 150.0,
 ];
 const RAISED_DEG: [f64; 3] = [0.0, 15.0, -15.0];
-/// Rays of those outlooks.
+/// Rays of those outlooks: other columns than those of the search, which knows its own too well.
 const RAYS: Rays = Rays {
-    columns: 96,
+    columns: 128,
     rows: 20,
 };
 

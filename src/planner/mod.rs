@@ -38,8 +38,8 @@ use subject::Rays;
 /// Rays of an outlook that the search looks with: many columns, as pillars are upright; with 24 of them it found layouts that hid
 /// models from those columns only, eight degrees better than the truth.
 const RAYS: Rays = Rays {
-    columns: 96,
-    rows: 10,
+    columns: 144,
+    rows: 7,
 };
 /// Chains of the search: each as long as they can be, so few.
 const CHAINS: u64 = 2;

@@ -274,8 +274,12 @@ fn worst_fault(
         ..brief.clone()
     };
     let survey = Survey::new(&[subject], &alone, &pillars);
-    let counts =
-        |f: &&Fault| matches!(f.kind, Kind::Fin | Kind::Tight | Kind::Ends | Kind::Open | Kind::Narrow);
+    let counts = |f: &&Fault| {
+        matches!(
+            f.kind,
+            Kind::Fin | Kind::Tight | Kind::Ends | Kind::Open | Kind::Narrow
+        )
+    };
     survey
         .faults
         .iter()

@@ -231,7 +231,13 @@ impl OfView<'_> {
                 let [thin, thick] = self.brief.care.fins;
                 let width = own * shadow.distance;
                 let mm = (width - thin).min(thick - width);
-                self.note(faults, Kind::Fin, [Some(i), j], if j.is_some() { mm } else { 0.0 }, place);
+                self.note(
+                    faults,
+                    Kind::Fin,
+                    [Some(i), j],
+                    if j.is_some() { mm } else { 0.0 },
+                    place,
+                );
             }
         }
     }

@@ -48,7 +48,7 @@ pub const GAP: f64 = 0.5;
 pub const COUNT: [u32; 2] = [1, 200];
 pub const SEED: u32 = 1;
 /// Candidates times views, as a candidate takes as long as there are views: some seconds; ten times as many gain a degree or two.
-pub const TRIES: u32 = 300_000;
+pub const TRIES: u32 = 320_000;
 
 /// Candidates of a scene with so many views.
 pub fn tries(views: usize) -> u64 {

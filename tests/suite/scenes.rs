@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 /// Scenes whose models are not bundled.
-const FOREIGN: [&str; 1] = ["reference-forest"];
+const FOREIGN: [&str; 2] = ["planned-reference", "reference-forest"];
 
 struct Built {
     scene: Scene,
@@ -69,11 +69,15 @@ fn built(name: &str) -> &'static Built {
     static FOUR: OnceLock<Built> = OnceLock::new();
     static PLATE: OnceLock<Built> = OnceLock::new();
     static REFERENCE: OnceLock<Built> = OnceLock::new();
+    static PLANNED: OnceLock<Built> = OnceLock::new();
+    static PLANNED_REFERENCE: OnceLock<Built> = OnceLock::new();
     let slot = match name {
         "minimal" => &MINIMAL,
         "four-creatures" => &FOUR,
         "plate" => &PLATE,
         "reference-forest" => &REFERENCE,
+        "planned-creatures" => &PLANNED,
+        "planned-reference" => &PLANNED_REFERENCE,
         _ => panic!("{name} is new: give it a place here and figures under tests/golden"),
     };
     slot.get_or_init(|| {
@@ -94,6 +98,11 @@ fn buildable() -> Vec<String> {
     let mut names = scene_names();
     names.retain(|n| outside || !FOREIGN.contains(&n.as_str()));
     names
+}
+
+/// Whether the scene has its pillars found.
+fn is_planned(name: &str) -> bool {
+    name.starts_with("planned-")
 }
 
 fn file<'a>(build: &'a Build, path: &str) -> &'a OutputFile {
@@ -173,6 +182,7 @@ fn every_scene_gives_every_file_and_no_warning() {
             wanted.push(format!("views/{}.png", view.name));
             wanted.push(format!("views/{}-lights.png", view.name));
         }
+        wanted.extend(is_planned(&name).then(|| "layout.ron".into()));
         wanted.sort_unstable();
         assert_eq!(found, wanted, "{name}");
         assert!(build.warnings.is_empty(), "{name}: {:?}", build.warnings);
@@ -224,9 +234,46 @@ fn printable_files_pass_our_own_inspection_when_read_back() {
 }
 
 #[test]
+fn planned_forests_keep_what_their_scenes_ask_for() {
+    for name in buildable().iter().filter(|n| is_planned(n)) {
+        let Built { scene, report, .. } = built(name);
+        let wanted = &scene.brief.as_ref().unwrap().tolerance_mm;
+        let curves = report["camouflage"].as_array().unwrap();
+        for ((view, wanted), curve) in report["views"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(wanted)
+            .zip(curves)
+        {
+            let certificate = &view["certificate"];
+            assert!(
+                certificate["coverage"].as_f64().unwrap() >= 0.9995,
+                "{name}: {view}"
+            );
+            assert_eq!(
+                certificate["conflicts"].as_array().unwrap().len(),
+                0,
+                "{name}: {view}"
+            );
+            let tolerance = certificate["eye_tolerance_mm"]["side"].as_f64().unwrap();
+            assert!(tolerance >= *wanted, "{name}: {tolerance} {wanted}");
+            // Ten degrees off nothing much is left: the same layout of rows in front has 34 to 47 here.
+            let points = curve["curve"].as_array().unwrap();
+            let off = points.iter().find(|p| p["angle_deg"] == 10.0).unwrap();
+            assert!(
+                off["mean_error_deg"].as_f64().unwrap() >= 48.0,
+                "{name}: {off}"
+            );
+        }
+    }
+}
+
+#[test]
 fn figures_are_the_golden_ones() {
-    for name in buildable() {
-        let report = &built(&name).report;
+    // A search may end elsewhere where sines are rounded otherwise: what it finds is held against what it promises instead.
+    for name in buildable().iter().filter(|n| !is_planned(n)) {
+        let report = &built(name).report;
         let solid = &report["solid"];
         let pick = |from: &Value, keys: &[&str]| -> Value {
             keys.iter().map(|k| from[*k].clone()).collect()
@@ -247,7 +294,7 @@ fn figures_are_the_golden_ones() {
             "size_mm": solid["size_mm"],
             "parts": solid["parts"],
             "cavities": solid["cavities"],
-            "defects": defects(&built(&name).build),
+            "defects": defects(&built(name).build),
             "views": views.collect::<Value>(),
         });
         golden::figures(&format!("{name}.json"), &found);
