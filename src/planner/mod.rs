@@ -173,9 +173,11 @@ pub fn plan(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, Vec<
             aim: Aim::Sound,
             ..problem
         };
+        // Its energy is another.
+        let from = sound.layout(layout.pillars, layout.poses);
         let founded = best_of(
             &sound,
-            &layout,
+            &from,
             tries,
             1.0,
             watch,

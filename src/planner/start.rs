@@ -200,7 +200,9 @@ fn next(
                     let shadow = Shadow::new(subject, &pillar, &brief.shapes[shape]);
                     return Ok((pillar, shadow));
                 }
-                Some(fault) if best.is_none_or(|b| fault.mm < b.mm) => best = Some(fault),
+                Some(fault) if best.is_none_or(|b| misfit(&fault) < misfit(&b)) => {
+                    best = Some(fault)
+                }
                 Some(_) => {}
             }
         }
@@ -213,6 +215,11 @@ fn next(
         at: subject.point(covered, near),
     };
     Err(best.unwrap_or(nowhere))
+}
+
+/// How little a place fits: outside of the region is told of only if no place is inside.
+fn misfit(fault: &Fault) -> (bool, f64) {
+    (fault.kind == Kind::Outside, fault.mm)
 }
 
 /// The pillar at this distance whose shadow begins before `covered`, by an overlap that is enough on pillars at `nearest` too.

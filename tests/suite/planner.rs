@@ -228,7 +228,7 @@ fn a_plan_is_sound_better_than_its_start_and_the_same_again() {
             tolerance: 0.0,
             ..brief(3, disc(75.0), 0).matters
         },
-        ..brief(3, disc(75.0), 3000)
+        ..brief(3, disc(75.0), 12_000)
     };
     let found = plan(&views, &brief, PATIENT).unwrap();
     sound(&views, &brief, &found);

@@ -87,7 +87,7 @@ fn an_empty_auto_is_what_the_schema_says() {
     };
     assert_eq!(shape.layer, layer);
     assert_eq!((brief.gap, brief.count), (0.5, [1, 200]));
-    assert_eq!((brief.seed, brief.tries, brief.seconds), (1, 320_000, 60.0));
+    assert_eq!((brief.seed, brief.tries, brief.seconds), (1, 160_000, 60.0));
     assert_eq!(brief.hidden_from_deg, 10.0);
     let matters = Matters {
         camouflage: 1.0,
