@@ -33,8 +33,10 @@ pub struct Outcome<'a> {
     pub problem: &'a Problem<'a>,
     pub start: Start,
     pub layout: Layout,
-    /// In the order of the search; side chains last.
+    /// In the order of the search.
     pub chains: Vec<Chain>,
+    /// Those at other tolerances, which end elsewhere.
+    pub aside: Vec<Chain>,
 }
 
 pub fn finished(outcome: Outcome) -> Planned {
@@ -44,6 +46,7 @@ pub fn finished(outcome: Outcome) -> Planned {
         start,
         layout,
         chains,
+        aside,
     } = outcome;
     let layout = in_order(problem, layout);
     let subjects = problem.subjects(&layout.poses);
@@ -62,9 +65,9 @@ pub fn finished(outcome: Outcome) -> Planned {
         worth,
         regions: start.regions,
         frames: frames(views, &first, &chains, &layout),
-        trade: trade(&chains, &layout),
-        tries: chains.iter().map(|c| c.tries).sum(),
-        ended: ended(&chains),
+        trade: trade(chains.iter().chain(&aside), &layout),
+        tries: chains.iter().chain(&aside).map(|c| c.tries).sum(),
+        ended: ended(&chains, &aside),
         changes: changes(problem, &layout),
         pillars: layout.pillars,
     }
@@ -177,7 +180,6 @@ fn likeness(
 fn frames(views: &[View], first: &Layout, chains: &[Chain], last: &Layout) -> Vec<Frame> {
     let mut way: Vec<(u64, &Layout)> = vec![(0, first)];
     let searched: u64 = chains.iter().map(|c| c.tries).sum();
-    // Side chains are not on the way: they begin at 0 again.
     for (tries, layout) in chains.iter().flat_map(|c| &c.way) {
         if *tries > way[way.len() - 1].0 {
             way.push((*tries, layout));
@@ -216,7 +218,7 @@ fn frame(views: &[View], tries: u64, layout: &Layout) -> Frame {
 }
 
 /// The best forecasts at every tolerance that no better one reaches too, and the chosen layout.
-fn trade(chains: &[Chain], layout: &Layout) -> Vec<Trade> {
+fn trade<'a>(chains: impl Iterator<Item = &'a Chain>, layout: &Layout) -> Vec<Trade> {
     if layout.hidden_deg.is_empty() {
         return Vec::new();
     }
@@ -226,7 +228,6 @@ fn trade(chains: &[Chain], layout: &Layout) -> Vec<Trade> {
         chosen: true,
     };
     let mut all: Vec<Trade> = chains
-        .iter()
         .flat_map(|c| c.trade.iter().flatten().copied())
         .collect();
     all.sort_by(|a, b| {
@@ -251,9 +252,11 @@ fn trade(chains: &[Chain], layout: &Layout) -> Vec<Trade> {
     curve
 }
 
-fn ended(chains: &[Chain]) -> Ended {
-    if chains.iter().any(|c| c.stopped) {
+fn ended(chains: &[Chain], aside: &[Chain]) -> Ended {
+    if chains.iter().chain(aside).any(|c| c.stopped) {
         Ended::Stopped
+    } else if chains.iter().any(|c| c.converged) {
+        Ended::Converged
     } else {
         Ended::Tries
     }

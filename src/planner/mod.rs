@@ -197,6 +197,7 @@ pub fn plan(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, Vec<
         chains.push(founded);
     }
     let first = layout.clone();
+    let mut others = Vec::new();
     if left > 0 && !chains.iter().any(|c| c.stopped) {
         let tries = ((1.0 - ASIDE) * left as f64) as u64;
         let mut main = best_of(
@@ -210,7 +211,7 @@ pub fn plan(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, Vec<
         main.way.iter_mut().for_each(|w| w.0 += spent);
         layout = main.best.clone();
         chains.push(main);
-        chains.extend(aside(&problem, [&first, &layout], left - tries, watch));
+        others = aside(&problem, [&first, &layout], left - tries, watch);
     }
     let outcome = Outcome {
         views,
@@ -218,6 +219,7 @@ pub fn plan(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, Vec<
         start: begun,
         layout,
         chains,
+        aside: others,
     };
     Ok(finished(outcome))
 }
@@ -269,6 +271,7 @@ pub fn repair(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, Ve
         start: begun,
         layout,
         chains,
+        aside: Vec::new(),
     };
     Ok(finished(outcome))
 }
@@ -350,6 +353,7 @@ fn best_of(
 fn together(chains: Vec<Chain>) -> Chain {
     let tries = chains.iter().map(|c| c.tries).sum();
     let stopped = chains.iter().any(|c| c.stopped);
+    let converged = chains.iter().all(|c| c.converged);
     let mut trade = Vec::new();
     chains
         .iter()
@@ -365,6 +369,7 @@ fn together(chains: Vec<Chain>) -> Chain {
     Chain {
         trade,
         tries,
+        converged,
         stopped,
         ..best
     }

@@ -37,6 +37,11 @@ const FARTHEST_OFF_DEG: f64 = 180.0;
 /// How often a chain looks whether it is to stop, and how long it goes on without heat then, in tries.
 const LOOK: u64 = 64;
 const QUENCH: u64 = 2000;
+/// A chain has converged if such a share of its tries changed nothing, or, below this temperature, gave nothing better by this much:
+/// a hundredth of a degree.
+const COOL: f64 = 2e-3;
+const PATIENCE: f64 = 0.05;
+const BETTER: f64 = 1e-3;
 /// Most layouts on the way that a chain keeps.
 const KEPT: u64 = 22;
 /// Bins of tolerance for the trade-off: an eighth of a doubling from a tenth of a millimetre on.
@@ -280,6 +285,8 @@ impl Problem<'_> {
         let mut chain = Chain::new(&start);
         let mut now = start;
         let (mut stopped, mut end, mut k) = (false, tries, 0);
+        let patience = ((PATIENCE * tries as f64) as u64).max(QUENCH);
+        let (mut low, mut since, mut moved) = (f64::INFINITY, 0, 0);
         while k < end {
             if !stopped && k % LOOK == 0 && watch(k) {
                 (stopped, end) = (true, tries.min(k + QUENCH));
@@ -289,18 +296,26 @@ impl Problem<'_> {
             } else {
                 heat * (1.0 - k as f64 / tries as f64)
             };
+            let temperature = HOT * heat * heat + COLD;
+            if temperature > COOL || chain.best.energy < low - BETTER {
+                (low, since) = (chain.best.energy, k);
+            }
+            if !stopped && k - since.min(moved) > patience {
+                chain.converged = true;
+                break;
+            }
             k += 1;
             let Some(proposal) = propose(self, &mut rng, &now, heat) else {
                 continue;
             };
             // Metropolis: the threshold first, so that hopeless candidates are not looked at in full.
             let luck: f64 = rng.random_range(f64::MIN_POSITIVE..1.0);
-            let ceiling = now.energy - (HOT * heat * heat + COLD) * luck.ln();
+            let ceiling = now.energy - temperature * luck.ln();
             let Some(next) = self.after(&now, proposal, ceiling) else {
                 continue;
             };
             if next.energy <= ceiling {
-                now = next;
+                (now, moved) = (next, k);
                 chain.note(k, &now, tries);
                 if self.aim == Aim::Sound && now.is_sound() {
                     break;
@@ -325,6 +340,8 @@ pub struct Chain {
     /// Best forecast at the tolerances met, by bins.
     pub trade: Vec<Option<Trade>>,
     pub tries: u64,
+    /// Ended before all tries were made: as nothing better came, or as it was told to.
+    pub converged: bool,
     pub stopped: bool,
 }
 
@@ -335,6 +352,7 @@ impl Chain {
             way: vec![(0, start.clone())],
             trade: vec![None; BINS],
             tries: 0,
+            converged: false,
             stopped: false,
         };
         chain.trade(start);

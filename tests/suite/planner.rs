@@ -343,6 +343,30 @@ fn a_search_that_is_stopped_still_gives_a_sound_layout() {
 }
 
 #[test]
+fn a_search_with_nothing_left_to_find_ends_early() {
+    let views = [view(0, DVec3::new(300.0, 0.0, 40.0), block(30.0, 30.0))];
+    let mut brief = brief(1, disc(40.0), 400);
+    let first = plan(&views, &brief, PATIENT).unwrap();
+    brief.given = first
+        .pillars
+        .iter()
+        .enumerate()
+        .map(|(i, p)| Pillar {
+            fixed: true,
+            given: Some(i),
+            ..*p
+        })
+        .collect();
+    brief.count = [1, first.pillars.len()];
+    brief.tries = 200_000;
+    let found = plan(&views, &brief, PATIENT).unwrap();
+    assert_eq!(found.ended, Ended::Converged);
+    assert!(found.tries < brief.tries / 5, "{} tries", found.tries);
+    let places = |pillars: &[Pillar]| -> Vec<DVec2> { pillars.iter().map(|p| p.at).collect() };
+    assert_eq!(places(&found.pillars), places(&first.pillars));
+}
+
+#[test]
 fn fixed_pillars_stay_and_the_rest_is_found() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);
     let views = uneven(&mut rng, 2, 36.0);
