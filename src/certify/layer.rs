@@ -25,8 +25,8 @@ pub fn bound_violation_mm(
         let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
             continue;
         };
-        for (q, z) in map.triangle(c).into_iter().zip(depths) {
-            let (near, far) = layer_in(map, field, &slab, c, q);
+        for (k, (q, z)) in map.triangle(c).into_iter().zip(depths).enumerate() {
+            let (near, far) = layer_in(map, field, &slab, c, k);
             worst = worst.max((near - z).max(z - far) * map.plane.direction(q).length());
         }
     }

@@ -154,8 +154,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
         .zip(&shapes)
         .map(|(s, r)| s.relief(&r.relief))
         .collect();
-    let forest =
-        carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
+    let forest = carve(&field, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
     progress("pictures", 0.7);
     let built = Built {
         bvh: Bvh::new(forest.whole.mesh()),

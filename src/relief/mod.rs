@@ -40,11 +40,11 @@ pub fn relief(
         let Some(slab) = groups.slabs[support as usize] else {
             continue;
         };
-        depth[c] = Some(cell.corners.map(|p| {
-            let q = map.points[p as usize];
+        depth[c] = Some([0, 1, 2].map(|k| {
+            let q = map.points[cell.corners[k] as usize];
             let (anchor, model_depth) = anchor(target, face as usize, q);
             let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
-            let (near, far) = layer_in(map, field, &slab, c, q);
+            let (near, far) = layer_in(map, field, &slab, c, k);
             let kept = free.clamp(near, far.max(near));
             clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
             kept

@@ -5,7 +5,7 @@ use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use crate::planner::Matters;
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
-use crate::support::{Datum, Layer};
+use crate::support::{Datum, Layer, SUNK_MM};
 
 /// Title of a scene that has none.
 pub const TITLE: &str = "Pillar forest";
@@ -17,10 +17,19 @@ pub const ROUND_FACETS: u32 = 64;
 
 /// Where reliefs may lie if the scene does not say: the slab that kept normals best on 8 mm pillars.
 pub const LAYER: Layer = Layer {
-    datum: Datum::AxisPlane,
+    datum: Datum::Plane,
     front: 5.0,
     back: 2.0,
     core: 1.0,
+    hull: false,
+};
+/// Layers of supports that are no pillars: reliefs stand on them.
+pub const ON_BODIES: Layer = Layer {
+    datum: Datum::Plane,
+    front: 5.0,
+    back: SUNK_MM,
+    core: 1.0,
+    hull: false,
 };
 /// On thinner pillars the default `back` and `core` shrink to these shares of the room behind the datum
 /// (radius or half width from the axis, width from the surface), so that such pillars work without further ado.
@@ -72,6 +81,20 @@ pub const BASE_MARGIN: f64 = 5.0;
 pub const BASE_FACETS: u32 = 128;
 /// How far pillars are sunk into the base, so that the union is a real overlap; half the base's thickness if that is less.
 pub const SINK: f64 = 1.0;
+
+/// Supports that are no pillars: thickness behind the face, a step's rise and going, room between strips, spacing of a wave's grid,
+/// and the largest number of its points (a solid of a million takes a minute).
+pub const BODY_THICKNESS: f64 = 5.0;
+pub const STEP: [f64; 2] = [17.0, 20.0];
+pub const STRIP_GAP: f64 = 0.0;
+pub const WAVE_PITCH: f64 = 1.0;
+pub const MOST_WAVE_POINTS: f64 = 1e6;
+pub const LONGEST_FORMULA: usize = 1000;
+pub const LEANS: std::ops::RangeInclusive<f64> = -80.0..=90.0;
+pub const CREASES: std::ops::RangeInclusive<f64> = 0.0..=180.0;
+/// Where supports look that do not say: as models do in their files.
+pub const FACING: [f64; 2] = [0.0, -1.0];
+pub const MOST_BODIES: usize = 1000;
 
 /// Model axes in the file: which way is up, which way is the side to be seen.
 pub const UP: &str = "z";

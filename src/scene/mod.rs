@@ -3,12 +3,15 @@
 mod aims;
 mod auto;
 mod bases;
+mod bodies;
 mod checks;
 pub mod defaults;
 mod depths;
 mod document;
 mod explain;
 mod forest;
+mod forms;
+mod heights;
 mod included;
 mod laid;
 mod layout;
@@ -49,7 +52,7 @@ pub struct Scene {
     /// Title for people.
     pub title: String,
     pub views: Vec<View>,
-    /// Pillars first, the base (if any) last.
+    /// Pillars first, then the base (if any), then other bodies.
     pub supports: Vec<Support>,
     /// What is to be found besides these pillars, or mended among them: they are the ones it gives, in their order. `None`: the
     /// forest is complete.

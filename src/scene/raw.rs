@@ -37,6 +37,7 @@ raw! {
         models: List<RawModel>,
         views: List<RawView>,
         pillars: RawForest,
+        supports: List<RawSupport>,
         base: RawBase,
         depth: RawDepth,
         energy: RawEnergy,
@@ -106,6 +107,28 @@ raw! {
     struct RawAdjust, "an adjustment `(view: \"owl\", turn: 3, scale: 0.98, shift: (1, -2))`" {
         view: String, turn: f64, scale: f64, shift: [f64; 2],
     }
+    struct RawPlate, "`Plate(width: 120, height: 90)`" {
+        name: String, width: f64, height: f64, thickness: f64, at: [f64; 3], facing: [f64; 2], lean: f64, depth: RawDepth,
+    }
+    struct RawStrips, "`Strips(count: 5, width: 30, height: 90)`" {
+        name: String, count: u32, width: f64, height: f64, thickness: f64, gap: f64, turn: f64, at: [f64; 3], facing: [f64; 2],
+        depth: RawDepth,
+    }
+    struct RawStairs, "`Stairs(steps: 6, width: 120)`" {
+        name: String, steps: u32, width: f64, rise: f64, going: f64, at: [f64; 3], facing: [f64; 2], depth: RawDepth,
+    }
+    struct RawGroove, "`Groove(width: 100, height: 90, opening: 80, deep: 40)`" {
+        name: String, width: f64, height: f64, thickness: f64, opening: f64, deep: f64, at: [f64; 3], facing: [f64; 2], lean: f64,
+        depth: RawDepth,
+    }
+    struct RawWave, "`Wave(width: 120, height: 90, heights: Formula(\"3 * sin(x / 8)\"))`" {
+        name: String, width: f64, height: f64, thickness: f64, heights: RawHeights, pitch: f64, at: [f64; 3], facing: [f64; 2],
+        lean: f64, depth: RawDepth,
+    }
+    struct RawImage, "`Image(file: \"sea.png\", from: 0, to: 5)`" { file: String, from: f64, to: f64, }
+    struct RawBody, "`Mesh(file: \"vase.ply\")`" {
+        name: String, file: String, units: RawUnit, place: RawPlace, thickness: f64, creases: f64, depth: RawDepth,
+    }
     struct RawRound, "`Round(radius: 4)`" { radius: f64, facets: u32, }
     struct RawPolygon, "`Polygon(sides: 6, radius: 4)`" { sides: u32, radius: f64, turn: f64, }
     struct RawRectangle, "`Rectangle(width: 8, depth: 5)`" { width: f64, depth: f64, turn: f64, }
@@ -121,7 +144,9 @@ raw! {
     struct RawSlab, "`Rectangle(width: 150, depth: 100, thickness: 5)`" {
         width: f64, depth: f64, thickness: f64, margin: f64, centre: [f64; 2],
     }
-    struct RawDepth, "a depth layer `(front: 5, back: 2)`" { from: RawDatum, front: f64, back: f64, core: f64, }
+    struct RawDepth, "a depth layer `(front: 5, back: 2)`" {
+        from: RawDatum, front: f64, back: f64, core: f64, outline: RawOutline,
+    }
     struct RawNormal, "`Normal(steps: Never)`" { steps: RawSteps, weight: RawWeight, ordering: bool, reweight: u32, }
     struct RawStepOptions, "`Allowed(highest: 3)`" {
         least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
@@ -211,7 +236,32 @@ pub enum RawBase {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum RawDatum {
     Axis,
+    Face,
     Surface,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawOutline {
+    Free,
+    OnSupport,
+}
+
+/// What carries reliefs and is no pillar.
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // a few per scene
+pub enum RawSupport {
+    Plate(RawPlate),
+    Strips(RawStrips),
+    Stairs(RawStairs),
+    Groove(RawGroove),
+    Wave(RawWave),
+    Mesh(RawBody),
+}
+
+#[derive(Debug, Deserialize)]
+pub enum RawHeights {
+    Formula(String),
+    Image(RawImage),
 }
 
 #[derive(Debug, Deserialize)]
@@ -297,7 +347,10 @@ wanted! {
     RawShape => "`Round(...)`, `Polygon(...)`, `Rectangle(...)` or `Profile(...)`";
     RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";
-    RawDatum => "Axis or Surface";
+    RawDatum => "Axis, Face or Surface";
+    RawOutline => "Free or OnSupport";
+    RawSupport => "`Plate(...)`, `Strips(...)`, `Stairs(...)`, `Groove(...)`, `Wave(...)` or `Mesh(...)`";
+    RawHeights => "`Formula(\"3 * sin(x / 8)\")` or `Image(file: \"sea.png\", from: 0, to: 5)`";
     RawEnergy => "`Normal(...)` or `Curvature(...)`";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";

@@ -73,6 +73,7 @@ pub fn sections() -> Vec<Section> {
     [
         scene_sections(),
         pillar_sections(),
+        body_sections(),
         place_sections(),
         planning_sections(),
         other_sections(),
@@ -98,8 +99,9 @@ fn scene_sections() -> Vec<Section> {
             field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
             field("models", "[model, ...]", REQUIRED, "what is to be seen"),
             field("views", "[view, ...]", REQUIRED, "from where"),
-            field("pillars", "[pillars, ...] | Auto(...) | File(text)", REQUIRED, "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
-            field("base", "Disc(...) | Rectangle(...) | None", "Disc()", "what the pillars stand on"),
+            field("pillars", "[pillars, ...] | Auto(...) | File(text)", "required without `supports`", "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
+            field("supports", "[Plate(...) | Strips(...) | Stairs(...) | Groove(...) | Wave(...) | Mesh(...), ...]", "[]", "what else carries it"),
+            field("base", "Disc(...) | Rectangle(...) | None", "Disc(); None without pillars", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
             field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
             field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
@@ -162,10 +164,80 @@ fn pillar_sections() -> Vec<Section> {
             field("turn", "degrees", "0", "about the axis"),
         ]),
         section("depth", "The room of the reliefs.", vec![
-            field("from", "Axis | Surface", datum(), "measured from the upright plane through the axis that faces the eye, or from the surface"),
+            field("from", "Axis | Face | Surface", format!("{}; Face on plates and strips, Surface on other supports", datum()), "measured from the upright plane through a pillar's axis that faces the eye, square to a plate's face, or along the rays from the surface"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
-            field("back", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.back, defaults::BACK_SHARE), "away from the eye"),
-            field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the pillar behind it"),
+            field("back", "length", format!("{} mm, at most {} of the room behind; {} mm where there are no pillars", defaults::LAYER.back, defaults::BACK_SHARE, defaults::ON_BODIES.back), "away from the eye: reliefs are carved in"),
+            field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the support behind it"),
+            field("outline", "Free | OnSupport", "Free", "whether the outline of every object must lie on the datum, to 0.05 mm"),
+        ]),
+    ]
+}
+
+#[rustfmt::skip] // a table
+fn body_sections() -> Vec<Section> {
+    let thick = format!("{} mm", defaults::BODY_THICKNESS);
+    let name = |usual: &str| field("name", "text", format!("{usual:?}"), "numbered where several have it");
+    let at = || field("at", "(x, y, z)", "(0, 0, 0)", "middle of the lower edge of its face");
+    let facing = || field("facing", "(x, y)", "(0, -1)", "where the face looks, along the ground");
+    let lean = || field("lean", "degrees", "0", "backwards: at 90 it lies on its back");
+    let depth = || field("depth", "depth", "the scene's", "fields given here replace the scene's");
+    vec![
+        section("Plate(...)", "A box with a flat face: the layer is square to it.", vec![
+            name("plate"),
+            field("width", "length", REQUIRED, "of the face"),
+            field("height", "length", REQUIRED, "of the face"),
+            field("thickness", "length", &thick, "behind the face"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Strips(...)", "Upright plates side by side.", vec![
+            name("strip"),
+            field("count", "count", REQUIRED, "of plates, up to 100"),
+            field("width", "length", REQUIRED, "of one"),
+            field("height", "length", REQUIRED, "of all"),
+            field("thickness", "length", &thick, "behind the faces"),
+            field("gap", "length", format!("{} mm", defaults::STRIP_GAP), "between neighbours"),
+            field("turn", "degrees", "0", "of each against its left neighbour: more than 0 folds the row back at its ends"),
+            at(), facing(), depth(),
+        ]),
+        section("Stairs(...)", "Steps that go up away from the viewer; every riser and tread carries pieces of its own.", vec![
+            name("stairs"),
+            field("steps", "count", REQUIRED, "up to 200"),
+            field("width", "length", REQUIRED, "of the steps"),
+            field("rise", "length", format!("{} mm", defaults::STEP[0]), "height of one"),
+            field("going", "length", format!("{} mm", defaults::STEP[1]), "depth of one"),
+            at(), facing(), depth(),
+        ]),
+        section("Groove(...)", "A block with a V-shaped groove from bottom to top.", vec![
+            name("groove"),
+            field("width", "length", REQUIRED, "of the block"),
+            field("height", "length", REQUIRED, "of the block"),
+            field("thickness", "length", format!("`deep` + {} mm", defaults::BODY_THICKNESS), "of the block"),
+            field("opening", "length", REQUIRED, "width of the groove at the face"),
+            field("deep", "length", REQUIRED, "depth of the groove in the middle"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Wave(...)", "A block whose face is any height field.", vec![
+            name("wave"),
+            field("width", "length", REQUIRED, "of the face"),
+            field("height", "length", REQUIRED, "of the face"),
+            field("thickness", "length", format!("{} mm", 2.0 * defaults::BODY_THICKNESS), "behind height 0"),
+            field("heights", "Formula(text) | Image(...)", REQUIRED, "in mm out of the face: of x (0 in the middle) and y (0 below) in mm, as Formula(\"3 * sin(x / 8)\")"),
+            field("pitch", "length", format!("{} mm", defaults::WAVE_PITCH), "largest distance of its points"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Image(...)", "Heights from a PNG stretched over the face.", vec![
+            field("file", "text", REQUIRED, "in the scene's folder or below"),
+            field("from", "length", "0 mm", "height of black"),
+            field("to", "length", REQUIRED, "height of white"),
+        ]),
+        section("Mesh(...)", "Any mesh: closed, or with a border and a thickness.", vec![
+            name("mesh"),
+            field("file", "text", REQUIRED, "as a model's"),
+            field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
+            field("place", "Fit(...) | Matrix(...)", "Fit()", "as a model's, but it looks along -y unless `facing` says otherwise"),
+            field("thickness", "length", "for meshes with a border", "goes on behind them, square to their mean direction"),
+            field("creases", "degrees", "none", "sharper edges part the surface: each part carries pieces of its own"),
+            depth(),
         ]),
     ]
 }
@@ -323,7 +395,7 @@ fn energy() -> &'static str {
 
 fn datum() -> &'static str {
     match defaults::LAYER.datum {
-        Datum::AxisPlane => "Axis",
+        Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     }
 }
@@ -361,6 +433,13 @@ mod tests {
             ("Fit(...)", fields_of::<raw::RawFit>()),
             ("view", fields_of::<raw::RawView>()),
             ("pillars", fields_of::<raw::RawPillars>()),
+            ("Plate(...)", fields_of::<raw::RawPlate>()),
+            ("Strips(...)", fields_of::<raw::RawStrips>()),
+            ("Stairs(...)", fields_of::<raw::RawStairs>()),
+            ("Groove(...)", fields_of::<raw::RawGroove>()),
+            ("Wave(...)", fields_of::<raw::RawWave>()),
+            ("Image(...)", fields_of::<raw::RawImage>()),
+            ("Mesh(...)", fields_of::<raw::RawBody>()),
             ("Round(...)", fields_of::<raw::RawRound>()),
             ("Polygon(...)", fields_of::<raw::RawPolygon>()),
             (

@@ -260,9 +260,9 @@ fn add_cell(
     let support = groups.groups[patch.group as usize].support;
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
-    for q in map.triangle(c) {
+    for (k, q) in map.triangle(c).into_iter().enumerate() {
         let (anchor, z) = anchor(target, patch.face as usize, q);
-        let (near, far) = layer_in(map, field, &slab, c, q);
+        let (near, far) = layer_in(map, field, &slab, c, k);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
         patch.points.push(PatchPoint {

@@ -270,7 +270,7 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
         round,
         heights: [90.0, 90.0],
         layer: Layer {
-            datum: Datum::AxisPlane,
+            datum: Datum::Plane,
             front: 2.0,
             back: 1.0,
             core: 0.5,

@@ -477,7 +477,7 @@ fn the_reference_forest_is_what_it_should_be() {
     let layer = scene.supports[0].layer.expect("pillars carry");
     assert_eq!(
         (layer.datum, layer.front, layer.back),
-        (Datum::AxisPlane, 5.0, 2.0)
+        (Datum::Plane, 5.0, 2.0)
     );
     let SupportKind::Pillar {
         axis, bottom, top, ..
