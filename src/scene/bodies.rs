@@ -158,7 +158,7 @@ impl Maker<'_> {
     /// Plates side by side, from left to right as they are looked at, each turned against its neighbour about their common edge.
     fn strips<'r>(&self, reader: &mut Reader, raw: &'r RawStrips) -> Option<Vec<Form<'r>>> {
         let name = self.name(reader, &raw.name, "strip")?;
-        reader.need(&raw.count, "count", "these Strips", self.span);
+        reader.need(&raw.count, "count", "this row of strips", self.span);
         let (count, _) = reader.count(&raw.count, "count", 1..=100)?;
         let [width, height] =
             self.sizes(reader, [(&raw.width, "width"), (&raw.height, "height")])?;
@@ -180,7 +180,8 @@ impl Maker<'_> {
         let step = |k: u32| (width + gap) * (way(k) + way(k + 1)) / 2.0;
         let mut middles = vec![DVec2::ZERO];
         (1..count).for_each(|k| middles.push(middles[k as usize - 1] + step(k - 1)));
-        let middle = (middles[0] + middles[count as usize - 1]) / 2.0;
+        let n = count as usize;
+        let middle = (middles[(n - 1) / 2] + middles[n / 2]) / 2.0;
         let strip = |k: u32| {
             let at = middles[k as usize] - middle;
             // In the frame x is to the right and z towards the viewer.
@@ -200,7 +201,7 @@ impl Maker<'_> {
 
     fn stairs<'r>(&self, reader: &mut Reader, raw: &'r RawStairs) -> Option<Form<'r>> {
         let name = self.name(reader, &raw.name, "stairs");
-        reader.need(&raw.steps, "steps", "these Stairs", self.span);
+        reader.need(&raw.steps, "steps", "this staircase", self.span);
         let steps = reader.count(&raw.steps, "steps", 1..=200);
         let [width] = self.sizes(reader, [(&raw.width, "width")])?;
         let [rise, going] = defaults::STEP;
@@ -280,7 +281,7 @@ impl Maker<'_> {
                 heights::image(reader, image, &at, [width, height], self.read)
             }
         }?;
-        let mesh = forms::wave(width, height, thickness, pitch, |x, y| field(x, y));
+        let mesh = forms::wave(width, height, thickness, pitch, field);
         let lowest = mesh.vertices[..mesh.vertices.len() / 2].iter().map(|v| v.z);
         let lowest = lowest.fold(f64::INFINITY, |low, z| {
             if z.is_finite() {
@@ -331,12 +332,12 @@ impl Maker<'_> {
             (self.read)(file).and_then(|bytes| crate::formats::load_model(file, &bytes, false));
         let mesh = match loaded {
             Ok(loaded) => {
-                reader
-                    .problems
-                    .extend(loaded.warnings.into_iter().map(|mut w| {
-                        w.place.get_or_insert(Place::Scene(file_span.clone()));
-                        w
-                    }));
+                // Whether it is sound is found below: warnings with advice for models would only repeat it.
+                let repairs = loaded.warnings.into_iter().filter(|w| w.help.is_empty());
+                reader.problems.extend(repairs.map(|mut w| {
+                    w.place.get_or_insert(Place::Scene(file_span.clone()));
+                    w
+                }));
                 loaded.value
             }
             Err(mut problem) => {

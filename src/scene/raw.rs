@@ -259,6 +259,7 @@ pub enum RawSupport {
 }
 
 #[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per wave
 pub enum RawHeights {
     Formula(String),
     Image(RawImage),

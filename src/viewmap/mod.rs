@@ -272,8 +272,8 @@ fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
     let mut marked: Vec<(u32, u32)> = Vec::new();
     for (cell, across) in map.cells.iter().zip(&map.neighbours) {
         let Some(own) = of(cell) else { continue };
-        for k in 0..3 {
-            let beyond = across[k].and_then(|n| of(&map.cells[n as usize]));
+        for (k, next) in across.iter().enumerate() {
+            let beyond = next.and_then(|n| of(&map.cells[n as usize]));
             if beyond != Some(own) {
                 marked.extend([k, (k + 1) % 3].map(|k| (cell.corners[k], own)));
             }

@@ -227,6 +227,7 @@ fn crossing() -> Vec<Support> {
         front: 6.0,
         back: 0.5,
         core: 0.2,
+        hull: false,
     });
     vec![pillar(DVec2::ZERO, 14.0, 96, Datum::Plane), thin]
 }
@@ -483,7 +484,7 @@ impl<'a> Built<'a> {
                 relief,
             })
             .collect();
-        let forest = carve(field.supports, &views).expect("a forest");
+        let forest = carve(field, &views).expect("a forest");
         Self {
             field,
             sights,

@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod bodies;
 mod camouflage;
 mod certificates_coverage;
 mod cli;

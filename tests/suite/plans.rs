@@ -92,6 +92,7 @@ fn brief_of(scene: &Scene) -> (Brief, Vec<Pillar>) {
     for support in &scene.supports {
         match &support.kind {
             SupportKind::Base { outline, .. } => region = outline.clone(),
+            SupportKind::Body { .. } => panic!("{} is no pillar", support.name),
             SupportKind::Pillar {
                 axis,
                 profile,
@@ -274,6 +275,7 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            hull: false,
         },
         written: String::new(),
     }

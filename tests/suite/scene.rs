@@ -301,7 +301,7 @@ fn layouts_stand_where_they_should() {
             .iter()
             .filter_map(|s| match &s.kind {
                 SupportKind::Pillar { axis, .. } => Some(axis.length()),
-                SupportKind::Base { .. } => None,
+                SupportKind::Base { .. } | SupportKind::Body { .. } => None,
             })
             .collect();
         assert_eq!(axes.len(), count, "{places}");

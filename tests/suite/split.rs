@@ -245,6 +245,7 @@ fn a_number_is_engraved_on_free_ground() {
                 match &support.kind {
                     SupportKind::Pillar { profile, .. } => assert!(!contains(profile, p)),
                     SupportKind::Base { outline, .. } => assert!(contains(outline, p)),
+                    SupportKind::Body { .. } => panic!("{} is no pillar", support.name),
                 }
             }
             let cut = split.cuts.x[0];

@@ -40,6 +40,7 @@ fn block(name: &str, lo: DVec2, hi: DVec2) -> Support {
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            hull: false,
         }),
     }
 }
@@ -180,7 +181,7 @@ fn rays_at_the_solid_measure_what_the_closed_form_says() {
         groups: &seen.groups,
         relief: &seen.relief,
     };
-    let forest = carve(&seen.setting.supports, &[view]).expect("a forest");
+    let forest = carve(&SupportField::new(&seen.setting.supports), &[view]).expect("a forest");
     let mesh = forest.whole.mesh();
     let bvh = Bvh::new(mesh);
     let mut found = seen.tolerance();
