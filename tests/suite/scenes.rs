@@ -384,8 +384,8 @@ fn the_bundled_box_is_a_plain_cube() {
     assert_eq!(cube.faces.len(), 6 * 16 * 16 * 2);
     assert_eq!((cube.volume(), cube.area()), (64_000.0, 9_600.0));
     for face in 0..cube.faces.len() {
-        // Halves of squares of 2.5 mm, facing along an axis.
-        assert_eq!(cube.area_vector(face).abs().max_element(), 3.125);
+        // Halves of squares of 2.5 mm, facing along an axis; the vector has twice the area.
+        assert_eq!(cube.area_vector(face).abs().max_element(), 6.25);
         assert_eq!(cube.normal(face).abs().max_element(), 1.0);
     }
 }
