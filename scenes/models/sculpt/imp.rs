@@ -1,5 +1,5 @@
 //! Standing imp that waves: one arm reaches up and towards the viewer with spread fingers, one large ear stands off to the
-//! side. Warty hide, horns, grin, belly, loincloth-free legs with clawed feet, a barbed tail.
+//! side. Warty hide, horns, a grin with teeth, a round belly, clawed feet and a barbed tail.
 
 use crate::coat::{Mosaic, scatter};
 use crate::field::*;
