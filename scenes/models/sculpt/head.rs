@@ -30,7 +30,7 @@ pub fn head() -> Creature {
         let m = mirror_x(p);
         let eye = 1.0 - 0.25 * step(11.0, 6.0, m.distance(EYE));
         let mouth = 1.0 - 0.2 * step(12.0, 7.0, p.distance(v(0.0, -29.0, 13.0)));
-        0.44 * eye * mouth * (1.0 + 1.3 * step(6.0, 20.0, p.y))
+        0.42 * eye * mouth * (1.0 + 1.3 * step(6.0, 20.0, p.y))
     };
     Creature {
         field: Box::new(field),
