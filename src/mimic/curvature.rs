@@ -41,7 +41,14 @@ pub fn depths(
     let mut quadratic = Quadratic::new(n + groups.groups.len());
     let visible = visible_vertices(target, map);
     let forms = vertex_forms(target, &geometry, map.plane.eye);
-    let weight = |i: usize| if visible[i] { 1.0 } else { options.hidden_weight * options.hidden_weight } / areas[i];
+    let weight = |i: usize| {
+        let hidden = if visible[i] {
+            1.0
+        } else {
+            options.hidden_weight * options.hidden_weight
+        };
+        hidden * target.weight(i as u32).powi(2) / areas[i]
+    };
     // Twice the square of a form adds its squared coefficients to the diagonal: the mean scales the program to order one.
     let trace: f64 = (0..n)
         .filter(|i| used[*i])

@@ -231,7 +231,9 @@ impl Faces {
             };
             let turn = geometry.cotangents[f].map(|cot| h * h * cot / (2.0 * area));
             let factor = opening.map_or(1.0, |o| o.counts[f]);
-            (target.mesh.faces[f], turn, weight * factor)
+            // As in the paper's Eq 13 weights count squared.
+            let marked = target.face_weight(f).powi(2);
+            (target.mesh.faces[f], turn, weight * factor * marked)
         };
         let seen = (0..seen.len()).filter(|f| seen[*f] > 0.0);
         Self {

@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod attributes;
 mod camouflage;
 mod certificates_coverage;
 mod cli;
@@ -28,5 +29,6 @@ mod scenes;
 mod shapes;
 mod split;
 mod steps;
+mod surface;
 mod tolerance;
 mod visibility;
