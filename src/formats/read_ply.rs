@@ -491,7 +491,7 @@ impl Builder {
 
     fn corner_uvs(&mut self, list: &[f64]) {
         let pairs = list.chunks_exact(2);
-        self.uv_counts.push(if list.len() % 2 == 0 {
+        self.uv_counts.push(if list.len().is_multiple_of(2) {
             pairs.len() as u32
         } else {
             u32::MAX

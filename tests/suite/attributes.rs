@@ -166,7 +166,8 @@ fn soup() -> (String, Vec<u32>) {
     let order: Vec<usize> = (0..n).map(|k| (k * 7 + 3) % n).chain([5]).collect();
     for (k, f) in order.iter().enumerate() {
         for v in ball.faces[*f] {
-            let p = ball.vertices[v as usize] + DVec3::splat(if k % 5 == 0 { 3e-6 } else { 0.0 });
+            let p = ball.vertices[v as usize]
+                + DVec3::splat(if k % 5 == 0 && k < n { 3e-6 } else { 0.0 });
             vertices += &format!("{:?} {:?} {:?} {v}\n", p.x, p.y, p.z);
             came_from.push(v);
         }
