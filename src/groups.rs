@@ -4,6 +4,7 @@
 //! component, each with a scale `mu_g` of its own, paper Eq 11) and for every point where the map's lines meet inside a group
 //! the relative depths `s = lambda / lambda0` allowed there. Because `1/lambda` is affine on a face and on a plane, bounds at
 //! all corners of all cells bound the relief everywhere: a layer is flat, or follows a surface that is flat in every cell.
+//! Points that any free vertex has a share in have no bounds.
 
 use crate::diag::Diagnostic;
 use crate::geom::barycentric;
@@ -45,6 +46,11 @@ impl Anchor {
         (0..3)
             .filter(move |k| weights[*k] > 0.0)
             .map(move |k| (vertices[k] as usize, weights[k]))
+    }
+
+    /// Whether a free vertex has a share in the point: then it has no bounds.
+    pub fn is_free(&self, target: &Target) -> bool {
+        !target.free.is_empty() && self.terms().any(|(v, _)| target.is_free(v as u32))
     }
 
     /// Relative depth of the point from those of all vertices (design: harmonic, because `1/lambda` is linear in the image).
@@ -322,6 +328,9 @@ fn bounds(
         for (k, p) in cell.corners.into_iter().enumerate() {
             let q = map.points[p as usize];
             let (anchor, depth) = anchor(target, face as usize, q);
+            if anchor.is_free(target) {
+                continue;
+            }
             let (near, far) = layer_in(map, field, &slab, c, k);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {

@@ -2,10 +2,13 @@
 
 use super::OutputFile;
 use super::pictures::Pictures;
+use super::sight::Shape;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
-use crate::formats::{Camera, Metadata, Part, write_3mf, write_glb, write_stl};
+use crate::formats::{
+    Camera, Metadata, Part, write_3mf, write_glb, write_stl, write_surface_obj, write_surface_ply,
+};
 use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
@@ -81,6 +84,20 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
             .then(|| file("forest.stl", write_stl(&forest.whole, &scene.title))),
     );
     files.extend(output.forest_glb.then(glb));
+    files
+}
+
+/// The optimised surfaces that were kept, as PLY and OBJ.
+pub fn surface_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
+    let mut files = Vec::new();
+    for (view, shape) in scene.views.iter().zip(shapes) {
+        let Some(surface) = &shape.surface else {
+            continue;
+        };
+        let path = |extension| format!("surface-{}.{extension}", view.name);
+        files.push(file(path("ply"), write_surface_ply(surface)));
+        files.push(file(path("obj"), write_surface_obj(surface)));
+    }
     files
 }
 

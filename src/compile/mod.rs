@@ -23,7 +23,7 @@ use crate::scene::{Scene, laid_out};
 use crate::viewmap::SupportField;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
-use files::{counts, file, plan_files, printable_files, summary};
+use files::{counts, file, plan_files, printable_files, summary, surface_files};
 use page::page;
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
@@ -189,6 +189,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     let certificates = certificates(&built, &bodies);
     progress("files", 0.9);
     let mut files = printable_files(scene, &built.forest);
+    files.extend(surface_files(scene, &built.shapes));
     if let Some(split) = &split {
         let (pieces, warning) = split_files(scene, split);
         files.extend(pieces);

@@ -41,7 +41,14 @@ pub fn depths(
     let mut quadratic = Quadratic::new(n + groups.groups.len());
     let visible = visible_vertices(target, map);
     let forms = vertex_forms(target, &geometry, map.plane.eye);
-    let weight = |i: usize| if visible[i] { 1.0 } else { options.hidden_weight * options.hidden_weight } / areas[i];
+    let weight = |i: usize| {
+        let hidden = if visible[i] {
+            1.0
+        } else {
+            options.hidden_weight * options.hidden_weight
+        };
+        hidden * target.weight(i as u32).powi(2) / areas[i]
+    };
     // Twice the square of a form adds its squared coefficients to the diagonal: the mean scales the program to order one.
     let trace: f64 = (0..n)
         .filter(|i| used[*i])
@@ -72,16 +79,16 @@ pub fn depths(
     };
     let depths = |u: &[f64]| {
         let depth = |i: usize| if used[i] { 1.0 + unit * u[i] } else { 1.0 };
-        let s: Vec<f64> = (0..n).map(depth).collect();
-        let mu = scales(groups, &[], &s, |_| 1.0);
-        (s, mu)
+        let mu = (0..groups.groups.len()).map(|g| 1.0 + unit * u[n + g]);
+        ((0..n).map(depth).collect(), mu.collect())
     };
     let meaning = Meaning {
         depths: &depths,
         tangent: &tangent,
     };
     let (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
-    let (s, mu) = depths(&u);
+    let (s, _) = depths(&u);
+    let mu = scales(groups, &[], &s, |_| 1.0);
     let solved = Solved {
         gauge: "the area-weighted mean relative depth is 1",
         ..solved

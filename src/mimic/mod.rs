@@ -198,6 +198,9 @@ fn scales(
         let slot = &mut mu[bound.group as usize];
         *slot = slot.max(bound.anchor.relative_depth(s) / bound.upper);
     }
+    // A group of free vertices only has nothing to be scaled to.
+    let unbounded = mu.iter_mut().filter(|mu| **mu == f64::MIN_POSITIVE);
+    unbounded.for_each(|mu| *mu = 1.0);
     let tied = conditions.iter().filter_map(Condition::between_groups);
     tied.flatten().for_each(|g| mu[g as usize] = free(g));
     mu

@@ -150,6 +150,7 @@ pub const OUTPUT: Output = Output {
     camouflage: true,
     split: false,
     report_html: true,
+    surface: false,
     picture_size: 640,
     plan_width: 2000,
 };
@@ -174,6 +175,10 @@ pub const LONGEST_TITLE: usize = 200;
 pub const LONGEST_NAME: usize = 64;
 pub const MOST_VIEWS: usize = 32;
 pub const MOST_MODELS: usize = 256;
+/// Regions of one model.
+pub const MOST_REGIONS: usize = 64;
+/// Factors on the weight of vertices; they count squared, so that beyond these a program loses its digits.
+pub const VERTEX_WEIGHTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 /// More pillars than this are refused before anything is allocated, more than the second take slicers very long.
 pub const MOST_PILLARS: u64 = 20_000;
 pub const MANY_PILLARS: u64 = 1_500;

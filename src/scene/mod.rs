@@ -16,6 +16,7 @@ mod included;
 mod laid;
 mod layout;
 mod lexer;
+mod marks;
 mod names;
 mod options;
 mod placing;
@@ -94,6 +95,8 @@ pub struct Output {
     pub split: bool,
     /// The report as a page for people.
     pub report_html: bool,
+    /// The optimised surfaces, before they are cut and scaled back.
+    pub surface: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

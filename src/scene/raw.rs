@@ -50,7 +50,15 @@ raw! {
         file: String,
         units: RawUnit,
         place: RawPlace,
+        regions: List<RawModelRegion>,
     }
+    struct RawModelRegion, "a region `(shape: Box(from: (0, 0, 0), to: (10, 10, 10)), weight: 3)`" {
+        shape: RawVolume,
+        weight: f64,
+        free: bool,
+    }
+    struct RawBox, "`Box(from: (0, 0, 0), to: (10, 10, 10))`" { from: [f64; 3], to: [f64; 3], }
+    struct RawBall, "`Ball(centre: (0, 0, 0), radius: 10)`" { centre: [f64; 3], radius: f64, }
     struct RawFit, "`Fit(height: 60)`" {
         height: f64,
         width: f64,
@@ -155,7 +163,7 @@ raw! {
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
-        report_html: bool, picture_size: u32, plan_width: u32,
+        report_html: bool, surface: bool, picture_size: u32, plan_width: u32,
     }
 }
 
@@ -173,6 +181,15 @@ pub enum RawUnit {
 pub enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
+}
+
+/// Part of a model.
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per region, short-lived
+pub enum RawVolume {
+    Box(RawBox),
+    Ball(RawBall),
+    Painted(String),
 }
 
 /// The pillars of a scene: listed, to be found, or kept in a file of their own.
@@ -339,6 +356,7 @@ wanted! {
     [f64; 4] => "a row of four numbers `(a, b, c, d)`";
     RawUnit => "mm, cm, m or inch";
     RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
+    RawVolume => "`Box(...)`, `Ball(...)` or `Painted(\"attribute\")`";
     RawForest => "a list `[...]`, `Auto(...)` or `File(\"layout.ron\")`";
     RawForestChoice => RawForest::WANTED;
     RawRegion => "`Disc(...)`, `Rectangle(...)` or `Polygon(...)`";

@@ -113,6 +113,20 @@ fn scene_sections() -> Vec<Section> {
             field("file", "text", REQUIRED, "OBJ, STL or PLY in the scene's folder or below, or by name in --models DIR"),
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
             field("place", "Fit(...) | Matrix(...)", "Fit()", "Matrix([(a, b, c, d), (..), (..), (..)]): 4 x 4 by rows, from file coordinates to mm"),
+            field("regions", "[region, ...]", "[]", "vertices that count more or less, or are free of the layer"),
+        ]),
+        section("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
+            field("shape", "Box(...) | Ball(...) | Painted(text)", REQUIRED, "Painted: by an attribute of the file, a PLY vertex property or red, green, blue of its colours: its values (0 to 1000) are weights, or more than 0.5 is inside if `free`"),
+            field("weight", "number", "1", "factor on the weight of its vertices, 0.001 to 1000; counts squared"),
+            field("free", "true | false", "false", "its vertices have no depth bounds; a view with such vertices has no steps"),
+        ]),
+        section("Box(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+            field("from", "(x, y, z)", REQUIRED, "a corner"),
+            field("to", "(x, y, z)", REQUIRED, "the opposite corner"),
+        ]),
+        section("Ball(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+            field("centre", "(x, y, z)", REQUIRED, "middle"),
+            field("radius", "number", REQUIRED, "in the unit of the file"),
         ]),
         section("Fit(...)", "Upright, turned to the eye, at one size: give height, width or largest, or none.", vec![
             field("height", "length", "as the file", "scaled to this height"),
@@ -380,6 +394,7 @@ fn other_sections() -> Vec<Section> {
             field("camouflage", "true | false", output.camouflage, "how like its model the forest is from elsewhere: camouflage.png and .svg, and figures in report.json"),
             field("split", "true | false", output.split, "plates, pillars one by one and layout.svg, as `build --split`"),
             field("report_html", "true | false", output.report_html, "report.html, the report with all pictures as one page for people"),
+            field("surface", "true | false", output.surface, "surface-<view>.ply and .obj: the optimised surface before it is cut and scaled back"),
             field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
             field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
         ]),
@@ -430,6 +445,9 @@ mod tests {
         let types = [
             ("scene", fields_of::<raw::RawScene>()),
             ("model", fields_of::<raw::RawModel>()),
+            ("region", fields_of::<raw::RawModelRegion>()),
+            ("Box(...)", fields_of::<raw::RawBox>()),
+            ("Ball(...)", fields_of::<raw::RawBall>()),
             ("Fit(...)", fields_of::<raw::RawFit>()),
             ("view", fields_of::<raw::RawView>()),
             ("pillars", fields_of::<raw::RawPillars>()),

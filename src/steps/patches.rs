@@ -125,7 +125,8 @@ impl Patches {
         for p in &mut patches {
             p.highest = highest(limits, target, p);
             p.seen_mm2 *= depth * depth;
-            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, p.seen_mm2);
+            let counted = p.seen_mm2 * target.face_weight(p.face as usize).powi(2);
+            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, counted);
         }
         let mut widths: Vec<f64> = patches
             .iter()

@@ -19,6 +19,7 @@ use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
 use crate::mesh::{DisjointSets, Edges, TriMesh, face_components};
 use crate::support::{Datum, Support, SupportKind};
+use crate::view::Marks;
 use glam::{DVec2, DVec3};
 
 /// Cells thinner than this, in millimetres at the model's mean distance, are merged away: below it, f32 coordinates and
@@ -180,6 +181,10 @@ pub struct Target {
     pub image: Vec<DVec2>,
     /// Depth of every vertex along the plane's forward axis.
     pub depth: Vec<f64>,
+    /// Factor on every vertex's weight `w` (paper Eq 13); empty: 1 everywhere.
+    pub weights: Vec<f64>,
+    /// Which vertices have no depth bounds; empty: none.
+    pub free: Vec<bool>,
     /// Whether every edge has two faces: then only faces turned to the eye can be seen.
     closed: bool,
 }
@@ -199,8 +204,38 @@ impl Target {
             mesh,
             image,
             depth,
+            weights: Vec::new(),
+            free: Vec::new(),
             closed,
         })
+    }
+
+    /// The same target with what a scene says of its vertices.
+    pub fn marked(self, marks: Marks) -> Self {
+        Self {
+            weights: marks.weights,
+            free: marks.free,
+            ..self
+        }
+    }
+
+    /// Factor on the weight of a vertex.
+    pub fn weight(&self, vertex: u32) -> f64 {
+        self.weights.get(vertex as usize).copied().unwrap_or(1.0)
+    }
+
+    /// Factor on the weight of a face: the mean of its vertices'.
+    pub fn face_weight(&self, face: usize) -> f64 {
+        if self.weights.is_empty() {
+            return 1.0;
+        }
+        let corners = self.mesh.faces[face].map(|v| self.weight(v));
+        corners.iter().sum::<f64>() / 3.0
+    }
+
+    /// Whether a vertex has no depth bounds.
+    pub fn is_free(&self, vertex: u32) -> bool {
+        self.free.get(vertex as usize) == Some(&true)
     }
 
     /// The same surface as another mesh: `mesh` has a vertex at each of `vertices` of this one.
@@ -210,6 +245,8 @@ impl Target {
             mesh,
             image: vertices.iter().map(|v| self.image[*v as usize]).collect(),
             depth: vertices.iter().map(|v| self.depth[*v as usize]).collect(),
+            weights: picked(&self.weights, vertices),
+            free: picked(&self.free, vertices),
             closed: false,
         }
     }
@@ -224,6 +261,14 @@ impl Target {
         let turn = orient(a, b, c);
         turn > 0.0 || (turn < 0.0 && !self.closed)
     }
+}
+
+/// Entries of a list that is empty or has one for every vertex.
+fn picked<T: Copy>(list: &[T], vertices: &[u32]) -> Vec<T> {
+    if list.is_empty() {
+        return Vec::new();
+    }
+    vertices.iter().map(|v| list[*v as usize]).collect()
 }
 
 /// Why no view map could be made.

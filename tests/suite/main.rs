@@ -1,6 +1,7 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod attributes;
 mod bodies;
 mod camouflage;
 mod certificates_coverage;
@@ -29,5 +30,6 @@ mod scenes;
 mod shapes;
 mod split;
 mod steps;
+mod surface;
 mod tolerance;
 mod visibility;

@@ -126,6 +126,8 @@ pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
         file: format!("{name}.obj"),
         matrix: DMat4::IDENTITY,
         mesh: model,
+        original: None,
+        marks: Default::default(),
     };
     View {
         name: name.into(),
