@@ -46,8 +46,8 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     let meta = Metadata {
         title: scene.title.clone(),
         description: format!(
-            "A pillar forest of {}: {}",
-            pillars(scene),
+            "{} by pillarforest: {}",
+            carriers(scene),
             scene
                 .views
                 .iter()
@@ -135,8 +135,20 @@ pub fn pillars(scene: &Scene) -> usize {
         .count()
 }
 
+/// What reliefs are carried by: "27 pillars", "1 support", or both.
+pub fn carriers(scene: &Scene) -> String {
+    let bodies = scene.supports.iter().filter(|s| s.is_body()).count();
+    let pillars = pillars(scene);
+    let plural = if bodies == 1 { "" } else { "s" };
+    match (pillars, bodies) {
+        (_, 0) => format!("{pillars} pillars"),
+        (0, _) => format!("{bodies} support{plural}"),
+        _ => format!("{pillars} pillars, {bodies} other support{plural}"),
+    }
+}
+
 pub fn counts(scene: &Scene) -> String {
-    format!("{} pillars, {} views", pillars(scene), scene.views.len())
+    format!("{}, {} views", carriers(scene), scene.views.len())
 }
 
 pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
@@ -149,8 +161,8 @@ pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String 
         .map(|(v, p)| format!("{} {:.1} deg", v.name, p.likeness.mean_deg))
         .collect();
     format!(
-        "{} pillars, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
-        pillars(scene),
+        "{}, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
+        carriers(scene),
         size.x,
         size.y,
         size.z,

@@ -471,6 +471,15 @@ fn bundled_scenes_resolve_without_a_word() {
     let four = bundled("scenes/four-creatures.ron", &models);
     assert_eq!(four.views.len(), 4);
     assert!(four.supports.len() > 25);
+    for (name, supports) in [
+        ("fig03-stairs", 1),
+        ("fig04-groove", 1),
+        ("fig13-wave", 1),
+        ("fig17-herd", 1),
+    ] {
+        let scene = bundled(&format!("scenes/paper/{name}.ron"), &models);
+        assert_eq!(scene.supports.len(), supports, "{name}");
+    }
 }
 
 #[test]
