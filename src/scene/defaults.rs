@@ -1,7 +1,7 @@
 //! Every default of the scene language, and every limit. Lengths in millimetres, angles in degrees.
 
 use crate::contest::Contested;
-use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
+use crate::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use crate::planner::Matters;
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
@@ -102,10 +102,12 @@ pub const STEPS: StepOptions = StepOptions {
 /// From this number of pillars on steps are allowed if the scene does not say: a single support is a plate or a figure that
 /// is touched and seen from nearby.
 pub const STEPS_FROM_PILLARS: usize = 2;
-pub const CURVATURE: CurvatureOptions = CurvatureOptions {
-    hidden_weight: 0.1,
-    ordering: true,
-};
+pub const CURVATURE: CurvatureOptions = CurvatureOptions::PAPER;
+/// Rounds of the nonlinear problem: the box of the paper needs some ten.
+pub const ITERATE: std::ops::RangeInclusive<u32> = 0..=100;
+/// Attenuation of gradients: slopes of 1 become 0.36, of 0.1 they become 0.08.
+pub const GRADIENT: GradientOptions = GradientOptions { compression: 5.0 };
+pub const COMPRESSION: std::ops::RangeInclusive<f64> = 0.0..=1000.0;
 pub const ENERGY: Energy = Energy::Normal(NORMAL);
 
 /// Who gets surface that two views want: with the order of the views the user decides.

@@ -126,7 +126,10 @@ raw! {
     struct RawStepOptions, "`Allowed(highest: 3)`" {
         least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
     }
-    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" { hidden_weight: f64, ordering: bool, }
+    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" {
+        hidden_weight: f64, ordering: bool, scale_invariant: bool, mean_curvature: bool, iterate: u32, form: RawCurvatureForm,
+    }
+    struct RawGradient, "`Gradient(compression: 5)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
@@ -219,6 +222,14 @@ pub enum RawDatum {
 pub enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
+    Linear,
+    Gradient(RawGradient),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawCurvatureForm {
+    Quadratic,
+    Conic,
 }
 
 #[derive(Debug, Deserialize)]
@@ -298,7 +309,8 @@ wanted! {
     RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";
     RawDatum => "Axis or Surface";
-    RawEnergy => "`Normal(...)` or `Curvature(...)`";
+    RawEnergy => "`Normal(...)`, `Curvature(...)`, `Linear` or `Gradient(...)`";
+    RawCurvatureForm => "Quadratic or Conic";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";
     RawContested => "First, Largest or Error";
