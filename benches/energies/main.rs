@@ -23,7 +23,7 @@ const ENERGIES: [&str; 9] = [
     "Curvature(hidden_weight: 1)",
     "Curvature(scale_invariant: false)",
     "Curvature(mean_curvature: true)",
-    "Curvature(iterate: 20)",
+    "Curvature(iterate: 20, hidden_weight: 1)",
     "Linear",
     "Gradient()",
 ];

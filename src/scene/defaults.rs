@@ -103,7 +103,7 @@ pub const STEPS: StepOptions = StepOptions {
 /// is touched and seen from nearby.
 pub const STEPS_FROM_PILLARS: usize = 2;
 pub const CURVATURE: CurvatureOptions = CurvatureOptions::PAPER;
-/// Rounds of the nonlinear problem: the box of the paper needs some ten.
+/// Rounds of the nonlinear problem: the box of the paper needs about ten.
 pub const ITERATE: std::ops::RangeInclusive<u32> = 0..=100;
 /// Attenuation of gradients: slopes of 1 become 0.36, of 0.1 they become 0.08.
 pub const GRADIENT: GradientOptions = GradientOptions { compression: 5.0 };

@@ -294,7 +294,7 @@ fn other_sections() -> Vec<Section> {
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
             field("scale_invariant", "true | false", defaults::CURVATURE.scale_invariant, "parts may change their scale; false: the paper's Eq 7 without its last factor"),
             field("mean_curvature", "true | false", defaults::CURVATURE.mean_curvature, "keep the division by the mean curvature (Eq 7), so that flat parts count as much as curved ones"),
-            field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100; in the report: `iterated`"),
+            field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
             field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),
         ]),
         section("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![

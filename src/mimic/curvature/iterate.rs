@@ -1,12 +1,13 @@
-//! The nonlinear problem of Eq 6 by a sequence of programs, each with the cotangent Laplacian of the last one's surface (Fig 6).
+//! The nonlinear problem by a sequence of programs, each with the cotangent Laplacian of the last one's surface (Fig 6).
 //!
-//! Eq 9 takes Laplacian, areas and curvatures from the model, and the wanted Laplacian vectors too. Here every round takes all of
-//! them from the surface it starts from, and wants there the model's normals (`Sheet::turned`); the weights stay the model's
-//! (`H0^2`, or 1 with the mean curvature kept). The paper does not write its update down; this is Gauss and Newton's for Eq 6
-//! with `L` and `A` held during a round. Round 0 is the linearised problem itself.
+//! Eq 9 takes cotangents and areas from the model. Here every round takes them from the surface of the round before; what is
+//! wanted stays the model's curvature over the region of each vertex (`Sheet::rows_on`). The paper does not write its update down;
+//! of several that were tried (wanted vectors turned, or of the deformed surface's length) this alone converged on its box.
+//! Round 0 is the linearised problem itself.
 //!
 //! Nothing promises that it converges: cotangents of triangles that became obtuse are far off (so the paper, which found it to work for
-//! small regular meshes only). So the turning of the seen faces, measured without any Laplacian, watches over every round, and where
+//! small regular meshes only), and hidden parts without bounds and with little weight run away first: on the box it wants `hidden_weight: 1`,
+//! as the paper's figure has. So the turning of the seen faces, measured without any Laplacian, watches over every round, and where
 //! the rounds do not end well the best of them is kept and the ending told.
 
 use super::sheet::Sheet;
@@ -18,9 +19,9 @@ use serde::Serialize;
 /// Change at which the rounds have converged, as a share of the layer's width: 7 micrometres of 7 mm, less than any printer's
 /// resolution.
 const SETTLED: f64 = 1e-3;
-/// Mean turn over the best one from which a surface runs away. The box oscillates by 10 % on its way, scans pass twice the best
-/// within a few rounds and never come back.
-const RUNAWAY: f64 = 1.5;
+/// Mean turn over the best one from which a surface runs away: on the box it falls from round to round, and a surface that lost a
+/// tenth never came back.
+const RUNAWAY: f64 = 1.1;
 
 /// How an iteration went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -81,8 +82,6 @@ impl Iterated {
 
 /// The depths after as many rounds as it takes, from the solution `first` of the linearised problem.
 pub fn iterated(problem: &Problem, first: Depths) -> Depths {
-    let flat = problem.model.flat();
-    let wanted = problem.model.curvature_normals(flat);
     let gauge = Turn::new(problem);
     let linearised_deg = gauge.mean_deg(&first.s);
     let mut kept = (0, linearised_deg, first.clone());
@@ -90,7 +89,7 @@ pub fn iterated(problem: &Problem, first: Depths) -> Depths {
     let mut ending = Ending::Unfinished;
     for k in 1..=problem.options.iterate as usize {
         let sheet = Sheet::new(&surface(problem, &last.s), problem.map.plane.eye);
-        let forms = sheet.turned(&last.s, &wanted, flat);
+        let forms = problem.model.rows_on(&sheet, &last.s);
         let next = problem.solve(&sheet, &forms, &last.s);
         let Some(next) = next.ok().filter(|d| d.s.iter().all(|s| *s > 0.0)) else {
             ending = Ending::Failed;

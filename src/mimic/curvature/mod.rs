@@ -179,11 +179,11 @@ impl Problem<'_> {
         }
     }
 
-    /// Weights of the squares of all forms: `w_i^2 / A_i`, over the squared mean curvature of the surface if that is not
-    /// cancelled; times that of the model (Eq 9: "we weigh with `H0^2`") if it is.
+    /// Weights of the squares of all forms: `w_i^2 / A_i`, over the squared mean curvature of the model if Eq 9 is not to
+    /// cancel it.
     fn weights(&self, sheet: &Sheet) -> Vec<f64> {
         let flat = self.model.flat();
-        let (own, models) = (sheet.curvatures(flat), self.model.curvatures(flat));
+        let curvatures = self.model.curvatures(flat);
         let hidden = self.options.hidden_weight;
         let weight = |i: usize| {
             let seen = if self.visible[i] {
@@ -193,9 +193,9 @@ impl Problem<'_> {
             };
             let bend = if self.options.mean_curvature {
                 // In units of the curvature that counts as flat.
-                flat / own[i]
+                flat / curvatures[i]
             } else {
-                models[i] / own[i]
+                1.0
             };
             seen / sheet.areas[i] * bend * bend
         };

@@ -1,4 +1,4 @@
-//! What the rows of the curvature energy are made of: one-rings, areas, curvatures and normals of a surface about its eye.
+//! What the rows of the curvature energy are made of: one-rings, areas and curvatures of a surface about its eye.
 //!
 //! `C` is the cotangent matrix, `A` the mixed Voronoi areas, `L = A^-1 C` the Laplacian: on a smooth surface `L v = -2 H n`
 //! (Botsch et al. 2010), `H` positive where it bulges out.
@@ -7,9 +7,9 @@ use crate::laplacian::FaceGeometry;
 use crate::mesh::TriMesh;
 use glam::DVec3;
 
-/// Curvatures below this share of the model's mean one cannot be told from none: the normal of a vertex is then that of its
-/// faces, and divisions by curvature are by this at least. At 1e-3 the faces of a box outweigh its edges a million times and
-/// the program loses digits; at 0.1 gently curved parts of the creatures count as flat.
+/// Curvatures below this share of the model's mean one cannot be told from none: divisions by curvature are by this at least.
+/// At 1e-3 the faces of a box outweigh its edges a million times and the program loses digits; at 0.1 gently curved parts of the
+/// creatures count as flat.
 const FLAT: f64 = 0.01;
 
 /// Coefficients of the relative depths in the row of a vertex, three coordinates at once, and its value at the depths where
@@ -29,8 +29,6 @@ pub struct Sheet {
     pub areas: Vec<f64>,
     /// `C v`, millimetres.
     flow: Vec<DVec3>,
-    /// Of the faces around each vertex by their areas; unit length.
-    normals: Vec<DVec3>,
 }
 
 impl Sheet {
@@ -42,15 +40,9 @@ impl Sheet {
             let steps = ring.iter().map(|(j, c)| *c * (rays[*j] - rays[i]));
             steps.sum()
         });
-        let mut normals = vec![DVec3::ZERO; rays.len()];
-        for (f, face) in mesh.faces.iter().enumerate() {
-            let area = mesh.area_vector(f);
-            face.iter().for_each(|v| normals[*v as usize] += area);
-        }
         Self {
             areas: geometry.vertex_areas(mesh),
             flow: flow.collect(),
-            normals: normals.iter().map(|n| n.normalize_or_zero()).collect(),
             rays,
             rings,
         }
@@ -85,28 +77,21 @@ impl Sheet {
         self.each(form)
     }
 
-    /// Rows about this surface, at relative depths `s`, that want the normals `wanted`: those of Eq 9 with this surface as
-    /// reference, where the wanted vector is the present one turned as `n -> n + (wanted across n)`. Its part along `n` stays, or
-    /// else the curvature would shrink from step to step wherever the normal cannot be reached.
-    pub fn turned(&self, s: &[f64], wanted: &[DVec3], flat: f64) -> Vec<Form> {
-        let normals = self.curvature_normals(flat);
+    /// Rows of Eq 9 with the cotangents of the surface `moved`, which this one is at relative depths `s`:
+    /// `sum over j of c_ij (v_j s_j - v_i s_i) - (C0 v)_i s_i`. What is wanted stays the model's curvature over each vertex's
+    /// region, `C v = -2 A H n`, which grows with the surface as lengths do: so these rows are scale invariant, too, and those of
+    /// the model itself are [`Self::scale_invariant`].
+    pub fn rows_on(&self, moved: &Self, s: &[f64]) -> Vec<Form> {
         let form = |ring: &Vec<(usize, f64)>, i: usize| {
-            let missing = self.signed_flow(i) * wanted[i].reject_from(normals[i]);
-            let missing = if missing.is_finite() {
-                missing
-            } else {
-                DVec3::ZERO
-            };
             let mut terms = self.neighbours(ring);
-            let sum: DVec3 = terms.iter().map(|t| t.1).sum();
-            terms.push((i, -sum - missing));
-            terms.iter_mut().for_each(|(j, v)| *v /= s[*j]);
+            let sum: f64 = ring.iter().map(|t| t.1).sum();
+            terms.push((i, -sum * self.rays[i] - self.flow[i]));
             Form {
                 terms,
-                value: -missing,
+                value: moved.flow[i] - s[i] * self.flow[i],
             }
         };
-        self.each(form)
+        moved.each(form)
     }
 
     /// The curvature below which a part of this surface counts as flat, 1 / mm.
@@ -123,33 +108,12 @@ impl Sheet {
             .collect()
     }
 
-    /// The normals `L v / (-2 H)` of all vertices; where the surface is flat, those of the faces.
-    pub fn curvature_normals(&self, flat: f64) -> Vec<DVec3> {
-        let normal = |i: usize| {
-            let outwards = if self.signed_flow(i) < 0.0 { -1.0 } else { 1.0 };
-            let curved = outwards * self.flow[i] / (2.0 * self.areas[i]);
-            let mixed = curved + flat * self.normals[i];
-            mixed.try_normalize().unwrap_or(self.normals[i])
-        };
-        (0..self.areas.len()).map(normal).collect()
-    }
-
     /// Size of the mean curvature at a vertex, 1 / mm.
     fn curvature(&self, i: usize) -> f64 {
         if self.areas[i] > 0.0 {
             self.flow[i].length() / (2.0 * self.areas[i])
         } else {
             0.0
-        }
-    }
-
-    /// Length of `C v` at a vertex, negative where the surface bulges out: `C v` is this times the normal.
-    fn signed_flow(&self, i: usize) -> f64 {
-        let length = self.flow[i].length();
-        if self.flow[i].dot(self.normals[i]) < 0.0 {
-            -length
-        } else {
-            length
         }
     }
 
