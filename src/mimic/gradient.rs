@@ -60,10 +60,16 @@ struct Field {
     vertices: usize,
     /// Sides of seen faces: `weight * (x_i - x_j - step)^2`.
     sides: Vec<Side>,
-    /// Points where sheets meet: `weight * (sum of coefficient * x - step)^2`.
-    jumps: Vec<(Vec<(usize, f64)>, f64, f64)>,
+    jumps: Vec<Jump>,
     /// Edges of unseen faces.
     unseen: Vec<[usize; 2]>,
+}
+
+/// A point where sheets meet: `weight * (sum of coefficient * x - step)^2`.
+struct Jump {
+    terms: Vec<(usize, f64)>,
+    weight: f64,
+    step: f64,
 }
 
 struct Side {
@@ -127,7 +133,12 @@ impl Field {
             linear[*i] -= 2.0 * weight * step;
             linear[*j] += 2.0 * weight * step;
         }
-        for (terms, weight, step) in &self.jumps {
+        for Jump {
+            terms,
+            weight,
+            step,
+        } in &self.jumps
+        {
             let weight = weight / mean;
             quadratic.form(terms, weight);
             terms
@@ -177,7 +188,7 @@ fn wanted_change(target: &Target, face: usize, alpha: f64) -> DVec2 {
 }
 
 /// Both ends of all sides of cells at which the depth of the model jumps; a side counts as much as a row of pixels of the size `edge`.
-fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<(Vec<(usize, f64)>, f64, f64)> {
+fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<Jump> {
     let mut jumps = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
         for (k, n) in map.neighbours[c].iter().enumerate() {
@@ -197,7 +208,11 @@ fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<(Vec<(usize, f64)>, f
                 let step = (zb / za).ln();
                 if step.abs() > JUMP {
                     let far = b.terms().map(|(v, w)| (v, -w));
-                    jumps.push((a.terms().chain(far).collect(), weight, step));
+                    jumps.push(Jump {
+                        terms: a.terms().chain(far).collect(),
+                        weight,
+                        step,
+                    });
                 }
             }
         }

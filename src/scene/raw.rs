@@ -129,7 +129,7 @@ raw! {
     struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" {
         hidden_weight: f64, ordering: bool, scale_invariant: bool, mean_curvature: bool, iterate: u32, form: RawCurvatureForm,
     }
-    struct RawGradient, "`Gradient(compression: 5)`" { compression: f64, }
+    struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
