@@ -27,7 +27,7 @@ use files::{counts, file, plan_files, printable_files, summary, surface_files};
 use page::page;
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
-use sight::{Shape, Sight, see};
+use sight::{Shape, Sight, see, unsettled};
 use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 use verdict::failures;
@@ -148,6 +148,10 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     }
     progress("quadratic programs", 0.15);
     let shapes = all(sights.par_iter().map(|s| s.shape(scene, &field)))?;
+    let warnings: Vec<Diagnostic> = warnings
+        .into_iter()
+        .chain(unsettled(&sights, &shapes))
+        .collect();
     progress("solids", 0.45);
     let reliefs: Vec<ViewRelief> = sights
         .iter()

@@ -35,6 +35,20 @@ pub struct Shape {
     pub surface: Option<Surface>,
 }
 
+/// Warnings of iterations that did not converge.
+pub fn unsettled(sights: &[Sight], shapes: &[Shape]) -> Vec<Diagnostic> {
+    let views = sights.iter().zip(shapes);
+    let warning = |(sight, shape): (&Sight, &Shape)| {
+        let text = shape.depths.iterated.as_ref()?.warning()?;
+        Some(
+            Diagnostic::warning(format!("view \"{}\": {text}", sight.view.name)).help(
+                "`iterate: 0` is the paper's own energy; iterating works for small, regular meshes",
+            ),
+        )
+    };
+    views.filter_map(warning).collect()
+}
+
 /// Projects, maps and groups one view.
 ///
 /// # Errors

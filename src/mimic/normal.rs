@@ -61,6 +61,7 @@ pub fn depths(
         variables,
         linear: linear(opening, &index, unit, variables),
         quadratic: faces.energy(&index, variables, opening, &|_| 1.0),
+        factor: Vec::new(),
         equalities: Vec::new(),
         rows: first,
     };
@@ -97,7 +98,12 @@ pub fn depths(
         },
         ..solved
     };
-    Ok(Depths { s, mu, solved })
+    Ok(Depths {
+        s,
+        mu,
+        solved,
+        iterated: None,
+    })
 }
 
 /// The regulariser's pull to where the surface starts, and the forces on it.

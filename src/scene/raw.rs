@@ -159,7 +159,10 @@ raw! {
     struct RawStepOptions, "`Allowed(highest: 3)`" {
         least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
     }
-    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" { hidden_weight: f64, ordering: bool, }
+    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" {
+        hidden_weight: f64, ordering: bool, scale_invariant: bool, mean_curvature: bool, iterate: u32, form: RawCurvatureForm,
+    }
+    struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
@@ -287,6 +290,14 @@ pub enum RawHeights {
 pub enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
+    Linear,
+    Gradient(RawGradient),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawCurvatureForm {
+    Quadratic,
+    Conic,
 }
 
 #[derive(Debug, Deserialize)]
@@ -370,7 +381,8 @@ wanted! {
     RawOutline => "Free or OnSupport";
     RawSupport => "`Plate(...)`, `Strips(...)`, `Stairs(...)`, `Groove(...)`, `Wave(...)` or `Mesh(...)`";
     RawHeights => "`Formula(\"3 * sin(x / 8)\")` or `Image(file: \"sea.png\", from: 0, to: 5)`";
-    RawEnergy => "`Normal(...)` or `Curvature(...)`";
+    RawEnergy => "`Normal(...)`, `Curvature(...)`, `Linear` or `Gradient(...)`";
+    RawCurvatureForm => "Quadratic or Conic";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";
     RawContested => "First, Largest or Error";

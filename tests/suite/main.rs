@@ -8,6 +8,7 @@ mod certificates_coverage;
 mod cli;
 mod dense;
 mod diagram;
+mod energies;
 mod files;
 mod formats;
 mod golden;

@@ -19,10 +19,7 @@ const NORMAL: Energy = Energy::Normal(NormalOptions {
     ordering: true,
     reweight: 0,
 });
-const CURVATURE: Energy = Energy::Curvature(CurvatureOptions {
-    hidden_weight: 0.1,
-    ordering: true,
-});
+const CURVATURE: Energy = Energy::Curvature(CurvatureOptions::PAPER);
 
 /// All that the stages up to the relief make of a setting.
 struct Outcome {
@@ -386,6 +383,7 @@ fn a_smaller_hidden_weight_serves_what_is_seen() {
         let options = CurvatureOptions {
             hidden_weight,
             ordering: false,
+            ..CurvatureOptions::PAPER
         };
         let outcome = Setting::tight().solved(Energy::Curvature(options));
         let rows = curvature_rows(&outcome.target.mesh, &outcome.depths.s, EYE);
@@ -505,6 +503,7 @@ fn a_contradiction_names_a_row_of_it() {
     let mut program = Program {
         variables: 2,
         quadratic: quadratic.to_csc(),
+        factor: Vec::new(),
         linear: vec![0.0; 2],
         equalities: Vec::new(),
         rows: vec![

@@ -281,8 +281,8 @@ const ENERGIES: [Energy; 2] = [
         reweight: 0,
     }),
     Energy::Curvature(CurvatureOptions {
-        hidden_weight: 0.1,
         ordering: false,
+        ..CurvatureOptions::PAPER
     }),
 ];
 
@@ -354,6 +354,7 @@ fn weights_move_the_error_elsewhere_and_equal_ones_change_nothing() {
         let [before, after] = match energy {
             Energy::Normal(_) => [error, turned],
             Energy::Curvature(_) => [&plain, &weighted].map(|d| bent(&target, &d.s)),
+            Energy::Linear | Energy::Gradient(_) => panic!("no vertex weights in {energy:?}"),
         };
         assert!(
             after < 0.98 * before,
