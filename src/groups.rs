@@ -1,9 +1,10 @@
 //! Depth groups and depth bounds: which parts of the image may move on their own, and how far.
 //!
-//! Takes a view map, its target and the supports. Gives the groups (connected image regions of one support and one mesh
+//! Takes a view map, its target and the supports. Gives the groups (connected image regions of one part of a support and one mesh
 //! component, each with a scale `mu_g` of its own, paper Eq 11) and for every point where the map's lines meet inside a group
 //! the relative depths `s = lambda / lambda0` allowed there. Because `1/lambda` is affine on a face and on a plane, bounds at
 //! all corners of all cells bound the relief everywhere: a layer is flat, or follows a surface that is flat in every cell.
+//! Points that any free vertex has a share in have no bounds.
 
 use crate::diag::Diagnostic;
 use crate::geom::barycentric;
@@ -19,10 +20,12 @@ const ON_SIDE: f64 = 4e-7;
 /// Relative depths and weights that differ by less are the same: a thousandth of what bounds promise.
 const SAME: f64 = 1e-12;
 
-/// A connected region of the image on one support, of one mesh component.
+/// A connected region of the image on one part of a support, of one mesh component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     pub support: u32,
+    /// Of the support's surface; see [`Support::part`](crate::support::Support::part).
+    pub part: u32,
     pub component: u32,
     /// Cells of the view map, rising.
     pub cells: Vec<u32>,
@@ -45,6 +48,11 @@ impl Anchor {
             .map(move |k| (vertices[k] as usize, weights[k]))
     }
 
+    /// Whether a free vertex has a share in the point: then it has no bounds.
+    pub fn is_free(&self, target: &Target) -> bool {
+        !target.free.is_empty() && self.terms().any(|(v, _)| target.is_free(v as u32))
+    }
+
     /// Relative depth of the point from those of all vertices (design: harmonic, because `1/lambda` is linear in the image).
     pub fn relative_depth(&self, s: &[f64]) -> f64 {
         1.0 / self.terms().map(|(v, w)| w / s[v]).sum::<f64>()
@@ -58,6 +66,8 @@ pub struct Bound {
     pub anchor: Anchor,
     pub lower: f64,
     pub upper: f64,
+    /// Whether it draws an outline onto the support: then it is narrower than those around it.
+    pub drawn: bool,
 }
 
 impl Bound {
@@ -132,11 +142,12 @@ pub fn groups(
     let carries = |c: usize| {
         let cell = map.cells[c];
         let support = cell.support.filter(|s| slabs[*s as usize].is_some())?;
-        Some((support, component[cell.face? as usize]))
+        let part = cell.facet.map_or(0, |f| field.part(f));
+        Some((support, part, component[cell.face? as usize]))
     };
-    let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(carries).collect();
+    let labels: Vec<Option<Label>> = (0..map.cells.len()).map(carries).collect();
     let (groups, of_cell) = regions(map, &labels);
-    check_layers(view, &groups, field, &slabs)?;
+    check_layers(view, &groups, map, field, &slabs)?;
     let (bounds, needed) = bounds(map, target, field, &groups, &of_cell, &slabs);
     Ok(Groups {
         groups,
@@ -181,9 +192,9 @@ pub fn without(
         let kept = lost.binary_search(&(c as u32)).is_err();
         let group = groups.of_cell[c].filter(|_| kept)?;
         let group = &groups.groups[group as usize];
-        Some((group.support, group.component))
+        Some((group.support, group.part, group.component))
     };
-    let labels: Vec<Option<(u32, u32)>> = (0..map.cells.len()).map(label).collect();
+    let labels: Vec<Option<Label>> = (0..map.cells.len()).map(label).collect();
     let (found, of_cell) = regions(map, &labels);
     let left = Groups {
         groups: found,
@@ -195,12 +206,16 @@ pub fn without(
     with_bounds(&left, map, target, field)
 }
 
+/// Support, part of it, component of the model.
+type Label = (u32, u32, u32);
+
 /// Flood fill over equal labels.
-fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Option<u32>>) {
+fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<u32>>) {
     let mut of_cell = vec![None; labels.len()];
     let mut groups = Vec::new();
     for seed in 0..labels.len() {
-        let Some((support, component)) = labels[seed].filter(|_| of_cell[seed].is_none()) else {
+        let Some((support, part, component)) = labels[seed].filter(|_| of_cell[seed].is_none())
+        else {
             continue;
         };
         let id = groups.len() as u32;
@@ -220,6 +235,7 @@ fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Opt
         let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
         groups.push(Group {
             support,
+            part,
             component,
             cells,
             solid_angle_sr,
@@ -231,6 +247,7 @@ fn regions(map: &ViewMap, labels: &[Option<(u32, u32)>]) -> (Vec<Group>, Vec<Opt
 fn check_layers(
     view: &str,
     groups: &[Group],
+    map: &ViewMap,
     field: &SupportField,
     slabs: &[Option<Slab>],
 ) -> Result<(), Vec<Diagnostic>> {
@@ -243,15 +260,24 @@ fn check_layers(
         let (Some(slab), Some(layer)) = (slabs[s as usize], support.layer) else {
             continue;
         };
-        if slab.behind() < layer.core {
+        if !slab.is_carved() {
+            continue;
+        }
+        let behind = if slab.is_shell() {
+            let on = groups.iter().filter(|g| g.support == s);
+            let cells = on.flat_map(|g| &g.cells);
+            behind(map, field, &slab, s, cells)
+        } else {
+            slab.behind()
+        };
+        if behind < layer.core {
             errors.push(
                 Diagnostic::error(format!(
-                    "{} leaves {:.2} mm behind its layer as seen from view \"{view}\", but the minimum core is {:.2} mm",
+                    "{} leaves {behind:.2} mm behind its layer as seen from view \"{view}\", but the minimum core is {:.2} mm",
                     support.name,
-                    slab.behind(),
                     layer.core
                 ))
-                .help(format!("lower the layer's back from {:.2} to {:.2} mm, or make the pillar thicker", layer.back, layer.back - layer.core + slab.behind())),
+                .help(format!("lower the layer's back from {:.2} to {:.2} mm, or make the {} thicker", layer.back, layer.back - layer.core + behind, if support.is_body() { "support" } else { "pillar" })),
             );
         }
     }
@@ -260,6 +286,24 @@ fn check_layers(
     } else {
         Err(errors)
     }
+}
+
+/// Material left behind a shell's back where it is thinnest, millimetres along rays through the cells' centres.
+fn behind<'a>(
+    map: &ViewMap,
+    field: &SupportField,
+    slab: &Slab,
+    support: u32,
+    cells: impl Iterator<Item = &'a u32>,
+) -> f64 {
+    let left = |c: &u32| {
+        let q = map.points_mean(map.cells[*c as usize].corners);
+        let direction = map.plane.direction(q);
+        let surface = surface_in(map, field, slab, *c as usize, q);
+        let thickness = field.thickness(support, map.plane.eye, direction);
+        (surface + thickness - slab.bounds(direction, surface).1) * direction.length()
+    };
+    cells.map(left).fold(f64::INFINITY, f64::min)
 }
 
 fn bounds(
@@ -281,10 +325,13 @@ fn bounds(
         let Some(slab) = slabs[support as usize] else {
             continue;
         };
-        for p in cell.corners {
+        for (k, p) in cell.corners.into_iter().enumerate() {
             let q = map.points[p as usize];
             let (anchor, depth) = anchor(target, face as usize, q);
-            let (near, far) = layer_in(map, field, &slab, c, q);
+            if anchor.is_free(target) {
+                continue;
+            }
+            let (near, far) = layer_in(map, field, &slab, c, k);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]
@@ -301,6 +348,7 @@ fn bounds(
                     anchor,
                     lower: near / depth,
                     upper: far / depth,
+                    drawn: slab.draws() && cell.outline[k],
                 },
             ));
         }
@@ -326,10 +374,11 @@ fn needed_first(bounds: Vec<Bound>, groups: &[Group], field: &SupportField) -> (
         let support = groups[b.group as usize].support;
         field.supports[support as usize]
             .layer
-            .is_some_and(|l| l.datum == Datum::AxisPlane)
+            .is_some_and(|l| l.datum == Datum::Plane)
     };
     let follows = |b: &Bound| {
         !alone(b)
+            && !b.drawn
             && flat(b)
             && b.anchor
                 .terms()
@@ -350,31 +399,39 @@ pub fn layer_at(
     q: DVec2,
 ) -> (f64, f64) {
     let direction = map.plane.direction(q);
-    let on_axis = slab.plane(direction, 0.0);
+    let on_plane = slab.plane(direction, 0.0);
     if !slab.follows_surface() {
-        return slab.bounds(direction, on_axis);
+        return slab.bounds(direction, on_plane);
     }
-    // At the outline the ray may just miss the support: the axis plane is where the surface ends there.
+    // At the outline the ray may just miss the support: the datum plane is where a pillar's surface ends there.
     let surface = field
-        .first_hit(map.plane.eye, direction)
-        .filter(|h| h.0 == support)
-        .map_or(on_axis, |h| h.1);
+        .hit_of(support, map.plane.eye, direction)
+        .unwrap_or(on_plane);
     slab.bounds(direction, surface)
 }
 
-/// The same in a cell, whose part of the support is one plane: the inverses of both are affine over the cell.
+/// The same at corner `k` of a cell, whose part of the support is one plane: the inverses of both are affine over the cell. Where an
+/// outline of the model is to lie on the support, at its corners there is hardly any room.
 pub fn layer_in(
     map: &ViewMap,
     field: &SupportField,
     slab: &Slab,
     cell: usize,
-    q: DVec2,
+    k: usize,
 ) -> (f64, f64) {
+    let q = map.triangle(cell)[k];
     let direction = map.plane.direction(q);
-    let facet = map.cells[cell].facet.filter(|_| slab.follows_surface());
-    let surface = match facet {
+    let surface = surface_in(map, field, slab, cell, q);
+    slab.on_datum(direction, surface)
+        .filter(|_| map.cells[cell].outline[k])
+        .unwrap_or_else(|| slab.bounds(direction, surface))
+}
+
+/// Depth of a layer's datum on the ray `q`, in the plane that the support is in a cell.
+pub fn surface_in(map: &ViewMap, field: &SupportField, slab: &Slab, cell: usize, q: DVec2) -> f64 {
+    let direction = map.plane.direction(q);
+    match map.cells[cell].facet.filter(|_| slab.follows_surface()) {
         Some(f) => field.facet_depth(f, map.plane.eye, direction),
         None => slab.plane(direction, 0.0),
-    };
-    slab.bounds(direction, surface)
+    }
 }

@@ -20,6 +20,7 @@
 //! | groups of all views | [`contest::settle`] | [`contest::Settlement`]: contested surface, and which view loses it |
 //! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
 //! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
+//! | depths | [`surface::surface`] | [`surface::Surface`]: the optimised surface with the input's attributes, for other programs |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
@@ -71,6 +72,8 @@ pub mod laplacian;
 pub mod mimic;
 
 pub mod steps;
+
+pub mod surface;
 
 pub mod relief;
 

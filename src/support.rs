@@ -1,4 +1,4 @@
-//! What carries reliefs: pillars now; plates, stairs, grooves, waves and meshes are to come as new `SupportKind`s.
+//! What carries reliefs: pillars, and bodies of any other form (plates, stairs, grooves, waves, meshes).
 //!
 //! A support is a closed solid with a name and, if it may carry reliefs, a depth layer. Everything downstream
 //! (visibility, groups, solids) asks only for its mesh and for its layer along a ray.
@@ -9,14 +9,14 @@ use glam::{DVec2, DVec3};
 /// From where a layer is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Datum {
-    /// The vertical plane through the pillar's axis that faces the eye: a flat slab, the best layer for a pillar.
-    AxisPlane,
+    /// A plane: of a pillar the vertical one through its axis that faces the eye, the best layer for a pillar; of a body its face.
+    Plane,
     /// The first hit of each ray with the support: a shell.
     Surface,
 }
 
-/// The room a relief may fill, in millimetres measured along the horizontal direction from the eye to the axis
-/// (`AxisPlane`) or along the rays, at the axis's distance (`Surface`).
+/// The room a relief may fill, in millimetres: square to the datum (`Plane`); or along the rays (`Surface`), on pillars at the
+/// axis's distance, on bodies at the distance of their farthest point, so that it is at most as much everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
     pub datum: Datum,
@@ -26,6 +26,22 @@ pub struct Layer {
     pub back: f64,
     /// Material that must be left behind the layer.
     pub core: f64,
+    /// Whether the outline of every component of the model must lie on the datum, to [`HULL_MM`] (paper Figs 12 and 17).
+    pub hull: bool,
+}
+
+/// How exactly an outline lies on its datum, millimetres: what a printer cannot show, and room enough for a solver.
+pub const HULL_MM: f64 = 0.05;
+/// A layer that ends less than this behind its datum is not carved into its body: reliefs only stand on it. They begin a little
+/// inside, or their edges would touch the body in a line.
+pub const SUNK_MM: f64 = 0.05;
+
+/// A plane with its outward side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    pub point: DVec3,
+    /// Unit.
+    pub normal: DVec3,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +60,15 @@ pub enum SupportKind {
         bottom: f64,
         top: f64,
     },
+    /// Any other closed solid.
+    Body {
+        /// Seen from above: convex, counter-clockwise.
+        outline: Vec<DVec2>,
+        /// What a layer with [`Datum::Plane`] is measured from.
+        face: Option<Face>,
+        /// Parts of the surface whose reliefs have scales of their own; index: face of the mesh.
+        parts: Vec<u32>,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -56,45 +81,95 @@ pub struct Support {
     pub mesh: TriMesh,
 }
 
+impl Support {
+    /// The part of its surface that a face of its mesh belongs to.
+    pub fn part(&self, face: usize) -> u32 {
+        match &self.kind {
+            SupportKind::Body { parts, .. } => parts[face],
+            SupportKind::Pillar { .. } | SupportKind::Base { .. } => 0,
+        }
+    }
+
+    /// Seen from above: simple, counter-clockwise.
+    pub fn outline(&self) -> &[DVec2] {
+        match &self.kind {
+            SupportKind::Pillar { profile, .. } => profile,
+            SupportKind::Base { outline, .. } | SupportKind::Body { outline, .. } => outline,
+        }
+    }
+
+    pub fn is_body(&self) -> bool {
+        matches!(self.kind, SupportKind::Body { .. })
+    }
+}
+
 /// Thickness of relief kept behind the layer's back so that its deepest parts still print: two extrusions of a 0.4 mm nozzle.
 const BACKING_MM: f64 = 0.8;
 /// Never more than this share of what stands behind the layer, so that the backing stays inside a thin pillar.
 const BACKING_SHARE: f64 = 0.45;
 
+/// What is carved out before a relief begins no nearer to the eye than this share of the way to its support leaves.
+const NEAREST: f64 = 0.95;
+
 /// The layer of one support as one eye meets it: depths along rays, in units of each ray's direction vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Slab {
     eye: DVec3,
-    /// Unit, horizontal, from the eye to the support's axis.
+    /// Unit, away from the eye: square to the datum plane; for a shell towards the middle of the support.
     towards: DVec3,
-    /// Horizontal distance from the eye to the datum plane, millimetres.
+    /// Distance from the eye to the datum plane (of a shell: to the plane through its middle), millimetres.
     distance: f64,
+    /// Distance at which a shell is as thick as its layer says, millimetres.
+    measure: f64,
     layer: Layer,
-    /// How far the support reaches in front of and behind its axis plane, millimetres.
+    /// How far the support reaches in front of and behind its datum plane, millimetres.
     reach: (f64, f64),
+    body: bool,
 }
 
 impl Slab {
-    /// The layer of `support` seen from `eye`; `None` if the support carries nothing or the eye stands on its axis.
+    /// The layer of `support` seen from `eye`; `None` if the support carries nothing or turns its back to the eye.
     pub fn new(support: &Support, eye: DVec3) -> Option<Self> {
         let layer = support.layer?;
-        let SupportKind::Pillar { axis, profile, .. } = &support.kind else {
-            return None;
-        };
-        let offset = *axis - eye.truncate();
-        let distance = offset.length();
-        let towards = offset.try_normalize()?;
-        let along = profile.iter().map(|p| (*p - *axis).dot(towards));
-        let reach = along.fold((0.0f64, 0.0f64), |(front, back), d| {
-            (front.max(-d), back.max(d))
-        });
-        Some(Self {
-            eye,
-            towards: towards.extend(0.0),
-            distance,
-            layer,
-            reach,
-        })
+        match &support.kind {
+            SupportKind::Base { .. } => None,
+            SupportKind::Pillar { axis, profile, .. } => {
+                let offset = *axis - eye.truncate();
+                let towards = offset.try_normalize()?;
+                let distance = offset.length();
+                let along = profile.iter().map(|p| (*p - *axis).dot(towards));
+                Some(Self {
+                    eye,
+                    towards: towards.extend(0.0),
+                    distance,
+                    measure: distance,
+                    layer,
+                    reach: reach(along),
+                    body: false,
+                })
+            }
+            SupportKind::Body { face, .. } => {
+                let face = face.filter(|_| layer.datum == Datum::Plane);
+                let (lo, hi) = support.mesh.bounds()?;
+                let middle = (lo + hi) / 2.0;
+                let (point, towards) = match face {
+                    Some(face) => (face.point, -face.normal),
+                    None => (middle, (middle - eye).try_normalize()?),
+                };
+                let distance = (point - eye).dot(towards);
+                let along = support.mesh.vertices.iter();
+                let slab = Self {
+                    eye,
+                    towards,
+                    distance,
+                    measure: farthest(&support.mesh, eye),
+                    layer,
+                    reach: reach(along.map(|v| (*v - point).dot(towards))),
+                    body: true,
+                };
+                (distance > layer.front).then_some(slab)
+            }
+        }
     }
 
     /// Whether the bounds depend on where a ray meets the support.
@@ -107,28 +182,61 @@ impl Slab {
     /// flat part of the surface.
     pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
         match self.layer.datum {
-            Datum::AxisPlane => (
+            Datum::Plane => (
                 self.plane(direction, -self.layer.front),
                 self.plane(direction, self.layer.back),
             ),
             Datum::Surface => (
-                surface * (1.0 - self.layer.front / self.distance),
-                surface * (1.0 + self.layer.back / self.distance),
+                surface * (1.0 - self.layer.front / self.measure),
+                surface * (1.0 + self.layer.back / self.measure),
             ),
         }
     }
 
-    /// Depth on a ray of the plane `offset` millimetres behind the axis plane.
+    /// Whether outlines of the model are to lie on the datum.
+    pub fn draws(&self) -> bool {
+        self.layer.hull
+    }
+
+    /// Smallest and largest depth at which an outline lies on the datum, if it is to lie there.
+    pub fn on_datum(&self, direction: DVec3, surface: f64) -> Option<(f64, f64)> {
+        let (near, far) = self.bounds(direction, surface);
+        let at = |offset: f64| match self.layer.datum {
+            Datum::Plane => self.plane(direction, offset),
+            Datum::Surface => surface * (1.0 + offset / self.measure),
+        };
+        self.layer
+            .hull
+            .then(|| (at(-HULL_MM).max(near), at(HULL_MM).min(far)))
+    }
+
+    /// Whether reliefs are carved into the support or only stand on it.
+    pub fn is_carved(&self) -> bool {
+        !self.body || self.layer.back > SUNK_MM
+    }
+
+    /// Whether reliefs follow a body of any form: then nothing about them is flat but within a facet.
+    pub fn is_shell(&self) -> bool {
+        self.body && self.follows_surface()
+    }
+
+    /// Depth on a ray at which a shell's reliefs end in solid material (`share` 1) or part of the way from the layer's back to there.
+    pub fn shell_backing(&self, surface: f64, share: f64) -> f64 {
+        let backing = BACKING_MM.min(BACKING_SHARE * self.layer.core);
+        surface * (1.0 + (self.layer.back + share * backing) / self.measure)
+    }
+
+    /// Depth on a ray of the plane `offset` millimetres behind the datum plane.
     pub fn plane(&self, direction: DVec3, offset: f64) -> f64 {
         (self.distance + offset) / direction.dot(self.towards)
     }
 
-    /// How far behind the axis plane reliefs end in solid material, millimetres: behind every depth the layer allows.
+    /// How far behind the datum plane reliefs end in solid material, millimetres: behind every depth the layer allows.
     pub fn backing(&self) -> f64 {
         self.layer.back + BACKING_MM.min(BACKING_SHARE * self.behind())
     }
 
-    /// How far behind the axis plane a relief may reach, millimetres.
+    /// How far behind the datum plane a relief may reach, millimetres.
     pub fn deepest(&self) -> f64 {
         self.layer.back
     }
@@ -138,15 +246,20 @@ impl Slab {
         self.reach.1 - self.layer.back
     }
 
-    /// How far in front of the axis plane either the support or its layer reaches, millimetres.
+    /// How far in front of the datum plane either the support or its layer reaches, millimetres.
     pub fn front(&self) -> f64 {
         match self.layer.datum {
-            Datum::AxisPlane => self.reach.0.max(self.layer.front),
-            Datum::Surface => self.reach.0 + self.layer.front,
+            Datum::Plane => self.reach.0.max(self.layer.front),
+            Datum::Surface => (self.reach.0 + self.layer.front).min(NEAREST * self.distance),
         }
     }
 
-    /// How far `p` lies behind the axis plane, millimetres.
+    /// How far behind the datum plane neither the support nor its layer reaches, millimetres.
+    pub fn beyond(&self) -> f64 {
+        self.reach.1 + self.layer.back
+    }
+
+    /// How far `p` lies behind the datum plane, millimetres.
     pub fn offset(&self, p: DVec3) -> f64 {
         (p - self.eye).dot(self.towards) - self.distance
     }
@@ -161,4 +274,20 @@ impl Slab {
         let sideways = self.towards.cross(DVec3::Z);
         p - (p - self.eye).dot(sideways) * sideways
     }
+}
+
+/// How far depths along a direction go in front of 0 and behind it.
+fn reach(along: impl Iterator<Item = f64>) -> (f64, f64) {
+    along.fold((0.0f64, 0.0f64), |(front, back), d| {
+        (front.max(-d), back.max(d))
+    })
+}
+
+/// Distance of the farthest point that an eye may see of a closed mesh, millimetres.
+fn farthest(mesh: &TriMesh, eye: DVec3) -> f64 {
+    let seen = |f: &usize| mesh.area_vector(*f).dot(eye - mesh.corners(*f)[0]) > 0.0;
+    let corners = (0..mesh.faces.len())
+        .filter(seen)
+        .flat_map(|f| mesh.corners(f));
+    corners.map(|p| p.distance(eye)).fold(0.0, f64::max)
 }

@@ -1,7 +1,8 @@
 //! What one eye is to see.
 
-use crate::mesh::TriMesh;
+use crate::mesh::{Original, TriMesh};
 use glam::{DMat4, DVec3};
+use std::sync::Arc;
 
 /// A model where it stands for one view.
 #[derive(Clone, Debug)]
@@ -13,6 +14,43 @@ pub struct PlacedModel {
     pub matrix: DMat4,
     /// In place, millimetres.
     pub mesh: TriMesh,
+    /// What its file has; `None` for a model that comes from no file.
+    pub original: Option<Arc<Original>>,
+    /// What the scene says of its vertices.
+    pub marks: Arc<Marks>,
+}
+
+/// What a scene says of the vertices of a mesh: each list is empty (nothing is said) or has an entry for every vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Factor on the vertex weight `w` of paper Eq 13; positive.
+    pub weights: Vec<f64>,
+    /// Whether the vertex has no depth bounds at all.
+    pub free: Vec<bool>,
+}
+
+impl Marks {
+    /// The marks of several meshes appended, of which each has so many vertices.
+    pub fn together<'a>(parts: impl Iterator<Item = (&'a Marks, usize)> + Clone) -> Self {
+        fn joined<'a, T: Copy + 'a>(
+            parts: impl Iterator<Item = (&'a [T], usize)> + Clone,
+            nothing: T,
+        ) -> Vec<T> {
+            let mut all = Vec::new();
+            if parts.clone().all(|(list, _)| list.is_empty()) {
+                return all;
+            }
+            for (list, count) in parts {
+                all.extend_from_slice(list);
+                all.resize(all.len() + count - list.len(), nothing);
+            }
+            all
+        }
+        Self {
+            weights: joined(parts.clone().map(|(m, n)| (&m.weights[..], n)), 1.0),
+            free: joined(parts.map(|(m, n)| (&m.free[..], n)), false),
+        }
+    }
 }
 
 /// An eye and the models it is to see.
@@ -33,5 +71,11 @@ impl View {
         let mut all = TriMesh::default();
         self.models.iter().for_each(|m| all.append(&m.mesh));
         all
+    }
+
+    /// The marks of [`View::target`]'s vertices.
+    pub fn marks(&self) -> Marks {
+        let parts = self.models.iter();
+        Marks::together(parts.map(|m| (&*m.marks, m.mesh.vertices.len())))
     }
 }

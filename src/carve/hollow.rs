@@ -1,8 +1,10 @@
 //! The carving in front of a relief: a frustum of the eye's rays. The only module that names `i_overlay`.
 
 use super::boolean::{Boolean, BooleanError};
+use crate::relief::block;
 use crate::support::Slab;
 use crate::viewmap::ViewMap;
+use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -32,21 +34,48 @@ pub fn hollow(
     bed: f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = slab.plane(map.plane.forward, 0.0);
-    let seen: Vec<u32> = (0..map.cells.len() as u32)
-        .filter(|c| map.cells[*c as usize].support == Some(support))
-        .collect();
-    let relief = simple(outlines(map, cells, scale));
-    let seen = simple(outlines(map, &seen, scale));
-    let rim = offset(&relief, RIM_MM).overlay(
-        &offset(&seen, -RIM_OVERLAP_MM),
-        OverlayRule::Difference,
-        FillRule::NonZero,
-    );
-    let shape = offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero);
-    let rings = offset(&flat(shape), -PART_MM);
+    let rings = shape(map, slab, support, cells, [bed, scale]);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
+    frustum(map, slab, &rings, scale, floor)
+}
+
+/// The same in front of a shell, which is not flat: down to `floor(cell, q)`.
+pub fn shell_hollow(
+    map: &ViewMap,
+    slab: &Slab,
+    support: u32,
+    cells: &[u32],
+    bed: f64,
+    floor: impl Fn(u32, DVec2) -> f64,
+) -> Result<Boolean, BooleanError> {
+    let scale = slab.plane(map.plane.forward, 0.0);
+    let mut depth = vec![None; map.cells.len()];
+    for c in cells {
+        depth[*c as usize] = Some(map.triangle(*c as usize).map(|q| floor(*c, q)));
+    }
+    // Everything behind the floor, to beyond the support: what is left of a frustum through all of it is what is in front.
+    let beyond = |by: f64| slab.beyond() + by * CLEAR_MM;
+    let end = |_: u32, q: DVec2| slab.plane(map.plane.direction(q), beyond(2.0));
+    let behind = block(map, cells, &depth, end, |_, _| false, 0.0);
+    let kept: Vec<u32> = cells
+        .iter()
+        .copied()
+        .filter(|c| behind.dropped.binary_search(c).is_err())
+        .collect();
+    let rings = shape(map, slab, support, &kept, [bed, scale]);
+    frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&Boolean::new(&behind.mesh)?)
+}
+
+/// The frustum of rays through rings, from in front of everything to `floor` millimetres behind the datum plane.
+fn frustum(
+    map: &ViewMap,
+    slab: &Slab,
+    rings: &Rings,
+    scale: f64,
+    floor: f64,
+) -> Result<Boolean, BooleanError> {
     // The prism's bottom becomes the far end: (right, up, towards the eye) is right-handed.
-    Boolean::prism(&rings, |p, height| {
+    Boolean::prism(rings, |p, height| {
         let q = p / scale;
         let offset = if height < 0.5 {
             floor
@@ -56,6 +85,25 @@ pub fn hollow(
         map.plane
             .point(q, slab.plane(map.plane.direction(q), offset))
     })
+}
+
+/// The part of the image that is carved: narrower than the relief where its support goes on beside it, wider where it ends or is
+/// hidden. A shell is carved to different depths; what of it is hidden stays.
+fn shape(map: &ViewMap, slab: &Slab, support: u32, cells: &[u32], [bed, scale]: [f64; 2]) -> Rings {
+    let goes_on = |c: &u32| match map.cells[*c as usize].support {
+        Some(found) => found == support || slab.is_shell(),
+        None => false,
+    };
+    let seen: Vec<u32> = (0..map.cells.len() as u32).filter(goes_on).collect();
+    let relief = simple(outlines(map, cells, scale));
+    let seen = simple(outlines(map, &seen, scale));
+    let rim = offset(&relief, RIM_MM).overlay(
+        &offset(&seen, -RIM_OVERLAP_MM),
+        OverlayRule::Difference,
+        FillRule::NonZero,
+    );
+    let shape = offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero);
+    offset(&flat(shape), -PART_MM)
 }
 
 /// The boundary of a set of cells (rising) as closed rings.

@@ -11,13 +11,13 @@ pub(crate) mod boolean;
 mod brace;
 pub(crate) mod hollow;
 
-use crate::groups::Groups;
-use crate::mesh::{Defect, Solid, mend, without_cavities};
+use crate::groups::{Groups, surface_in};
+use crate::mesh::{Defect, DisjointSets, Solid, mend, without_cavities};
 use crate::relief::{Relief, block};
-use crate::support::Support;
-use crate::viewmap::ViewMap;
+use crate::support::Slab;
+use crate::viewmap::{SupportField, ViewMap};
 use boolean::{Boolean, BooleanError};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Widths that make operands overlap where they would only touch. Where they happen to touch all the same and cannot be
@@ -71,6 +71,11 @@ const UNIONS: usize = 16;
 const SUSPECT_MM: f64 = 0.5;
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
 pub(crate) const CRUMB_MM3: f64 = 0.005;
+
+/// A shell is carved down to this share of the way from its layer's back to the end of its backing.
+const FLOOR: f64 = 0.5;
+/// Facets of a shell whose depths differ by less where they meet are one sheet, millimetres: rounding and merged cells leave less.
+const SHEET_MM: f64 = 0.05;
 
 /// What one view adds to the forest.
 pub struct ViewRelief<'a> {
@@ -151,10 +156,10 @@ fn list(defects: &[Defect]) -> String {
 ///
 /// # Errors
 /// If the boolean library refuses an operand or a solid stays unsound at all widths tried, with the support.
-pub fn carve(supports: &[Support], views: &[ViewRelief]) -> Result<Forest, CarveError> {
-    let mut carved: Vec<Carved> = (0..supports.len())
+pub fn carve(field: &SupportField, views: &[ViewRelief]) -> Result<Forest, CarveError> {
+    let mut carved: Vec<Carved> = (0..field.supports.len())
         .into_par_iter()
-        .map(|s| carve_support(supports, s, views, 0))
+        .map(|s| carve_support(field, s, views, 0))
         .collect::<Result<_, _>>()?;
     for _ in 1..UNIONS {
         let error = match unite(&carved, views) {
@@ -167,7 +172,7 @@ pub fn carve(supports: &[Support], views: &[ViewRelief]) -> Result<Forest, Carve
         let Some(s) = suspects.filter(near).min_by_key(|s| carved[*s].widths) else {
             return Err(error);
         };
-        carved[s] = carve_support(supports, s, views, carved[s].widths + 1)?;
+        carved[s] = carve_support(field, s, views, carved[s].widths + 1)?;
     }
     unite(&carved, views)
 }
@@ -274,14 +279,14 @@ impl Carved {
 
 /// Carves one support, at the first widths from `first` on that come out sound.
 fn carve_support(
-    supports: &[Support],
+    field: &SupportField,
     s: usize,
     views: &[ViewRelief],
     first: usize,
 ) -> Result<Carved, CarveError> {
     let mut last = None;
     for widths in first..WIDTHS.len() {
-        match carve_at(&supports[s], s as u32, views, widths) {
+        match carve_at(field, s as u32, views, widths) {
             Ok(carved) => return Ok(carved),
             Err(error) => last = Some(error),
         }
@@ -290,11 +295,12 @@ fn carve_support(
 }
 
 fn carve_at(
-    support: &Support,
+    field: &SupportField,
     s: u32,
     views: &[ViewRelief],
     widths: usize,
 ) -> Result<Carved, CarveError> {
+    let support = &field.supports[s as usize];
     let Widths { bed, lap } = WIDTHS[widths];
     let failed = |source| CarveError::Boolean {
         place: support.name.clone(),
@@ -309,20 +315,28 @@ fn carve_at(
         let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else {
             continue;
         };
-        let back = |q| slab.plane(view.map.plane.direction(q), slab.backing());
-        let behind = |c, k| hidden(view.map, c, k);
-        let made = block(view.map, &cells, &view.relief.depth, back, behind, lap);
-        repairs.filled += made.filled;
-        repairs.dropped_cells += made.dropped.len();
+        let bodies = Bodies {
+            field,
+            support: s,
+            slab: &slab,
+            view,
+        };
+        let made = bodies.relief(&cells, lap, &mut repairs).map_err(failed)?;
         given_up.push((v, made.dropped));
-        let hollow = hollow::hollow(view.map, &slab, s, &cells, bed).map_err(failed)?;
-        bare = bare.minus(&hollow).map_err(failed)?;
-        blocks.push((v, slab, Boolean::new(&made.mesh).map_err(failed)?));
+        if slab.is_carved() {
+            let hollow = bodies.hollow(&cells, bed).map_err(failed)?;
+            bare = bare.minus(&hollow).map_err(failed)?;
+        }
+        blocks.push((v, slab, made.solid));
     }
     let mut whole = bare.clone();
     for (_, slab, block) in &mut blocks {
         let joined = whole.plus(block).map_err(failed)?;
-        let braces = brace::braces(&joined, slab, CRUMB_MM3).map_err(failed)?;
+        let braces = if support.is_body() {
+            Vec::new()
+        } else {
+            brace::braces(&joined, slab, CRUMB_MM3).map_err(failed)?
+        };
         repairs.braces += braces.len();
         for brace in &braces {
             *block = block.plus(brace).map_err(failed)?;
@@ -357,6 +371,93 @@ fn carve_at(
         repairs,
         widths,
     })
+}
+
+/// What one view makes of one support.
+struct Bodies<'a> {
+    field: &'a SupportField<'a>,
+    support: u32,
+    slab: &'a Slab,
+    view: &'a ViewRelief<'a>,
+}
+
+/// A relief as a solid, and the cells it had to give up, rising.
+struct Made {
+    solid: Boolean,
+    dropped: Vec<u32>,
+}
+
+impl Bodies<'_> {
+    fn relief(&self, cells: &[u32], lap: f64, repairs: &mut Repairs) -> Result<Made, BooleanError> {
+        let map = self.view.map;
+        let back = |c: u32, q: DVec2| {
+            if self.slab.is_shell() {
+                self.shell(c, q, 1.0)
+            } else {
+                self.slab.plane(map.plane.direction(q), self.slab.backing())
+            }
+        };
+        let behind = |c, k| hidden(map, c, k);
+        let (mut solids, mut dropped) = (Vec::new(), Vec::new());
+        for sheet in self.sheets(cells) {
+            let made = block(map, &sheet, &self.view.relief.depth, back, behind, lap);
+            repairs.filled += made.filled;
+            repairs.dropped_cells += made.dropped.len();
+            dropped.extend(made.dropped);
+            solids.push(Boolean::new(&made.mesh)?);
+        }
+        dropped.sort_unstable();
+        Ok(Made {
+            solid: Boolean::union(solids)?,
+            dropped,
+        })
+    }
+
+    fn hollow(&self, cells: &[u32], bed: f64) -> Result<Boolean, BooleanError> {
+        let (map, slab) = (self.view.map, self.slab);
+        if slab.is_shell() {
+            let floor = |c: u32, q: DVec2| self.shell(c, q, FLOOR);
+            hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
+        } else {
+            hollow::hollow(map, slab, self.support, cells, bed)
+        }
+    }
+
+    /// Where a shell's backing ends (`share` 1), or part of the way to there.
+    fn shell(&self, cell: u32, q: DVec2, share: f64) -> f64 {
+        let surface = surface_in(self.view.map, self.field, self.slab, cell as usize, q);
+        self.slab.shell_backing(surface, share)
+    }
+
+    /// Cells (rising) in parts over which the surface of a shell does not jump: where one fold of it hides another it does.
+    fn sheets(&self, cells: &[u32]) -> Vec<Vec<u32>> {
+        if !self.slab.is_shell() {
+            return vec![cells.to_vec()];
+        }
+        let map = self.view.map;
+        let local = |c: &u32| cells.binary_search(c).ok();
+        let mut sets = DisjointSets::new(cells.len());
+        for (i, c) in cells.iter().enumerate() {
+            for (k, n) in map.neighbours[*c as usize].iter().enumerate() {
+                let Some((n, j)) = n.and_then(|n| Some((n, local(&n)?))) else {
+                    continue;
+                };
+                let [a, b, _] = [0, 1, 2].map(|i| map.triangle(*c as usize)[(k + i) % 3]);
+                let apart = |q| self.shell(*c, q, 0.0) - self.shell(n, q, 0.0);
+                if apart(a.midpoint(b)).abs() < SHEET_MM {
+                    sets.join(i as u32, j as u32);
+                }
+            }
+        }
+        let mut sheets: Vec<(u32, u32)> = (0..cells.len())
+            .map(|i| (sets.root(i as u32), cells[i]))
+            .collect();
+        sheets.sort_unstable();
+        sheets
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(|sheet| sheet.iter().map(|s| s.1).collect())
+            .collect()
+    }
 }
 
 /// Whether a nearer support hides what lies beyond side `k` of a cell.

@@ -12,7 +12,7 @@ use crate::viewmap::{SupportField, Target, ViewMap};
 /// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
 const EQUAL_MM: f64 = 1e-6;
 
-/// How far the relief leaves its layer anywhere, millimetres along the ray.
+/// How far the relief leaves its layer anywhere but at free corners, millimetres along the ray.
 pub fn bound_violation_mm(
     map: &ViewMap,
     field: &SupportField,
@@ -25,8 +25,10 @@ pub fn bound_violation_mm(
         let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
             continue;
         };
-        for (q, z) in map.triangle(c).into_iter().zip(depths) {
-            let (near, far) = layer_in(map, field, &slab, c, q);
+        let free = relief.free.get(c).copied().unwrap_or_default();
+        let corners = map.triangle(c).into_iter().zip(depths).enumerate();
+        for (k, (q, z)) in corners.filter(|(k, _)| !free[*k]) {
+            let (near, far) = layer_in(map, field, &slab, c, k);
             worst = worst.max((near - z).max(z - far) * map.plane.direction(q).length());
         }
     }

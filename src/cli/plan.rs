@@ -190,7 +190,7 @@ fn place(scene: &Scene, pillar: usize) -> Option<(&str, glam::DVec2)> {
     let support = scene.supports.get(pillar)?;
     match &support.kind {
         SupportKind::Pillar { axis, .. } => Some((support.name.as_str(), *axis)),
-        SupportKind::Base { .. } => None,
+        SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     }
 }
 

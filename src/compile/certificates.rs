@@ -10,8 +10,8 @@ use crate::certify::layer::{bound_violation_mm, order_inversions};
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Claim, Contest, contested, settle};
 use crate::diag::Diagnostic;
-use crate::mimic::Optimality;
-use crate::report::{CertificateReport, ModelShare};
+use crate::mimic::{Optimality, Solved};
+use crate::report::{CertificateReport, ModelShare, Proof};
 use crate::scene::Scene;
 use crate::viewmap::SupportField;
 use glam::DVec3;
@@ -89,12 +89,6 @@ fn certificate(
     let (relief, given_up) = (&shape.relief, &built.forest.given_up[v]);
     let coverage = sight.coverage(built.scene, built.field, given_up);
     let sighted = sighted(&sight.seen(), v, relief, given_up, finished);
-    let Optimality {
-        gap,
-        primal_residual,
-        dual_residual,
-        ..
-    } = shape.depths.solved.optimality;
     let turned = order_inversions(&sight.map, &sight.target, relief);
     let whole = coverage.solid_angle_sr();
     let share = |lost: f64, of: f64| if of > 0.0 { lost / of } else { 0.0 };
@@ -105,9 +99,8 @@ fn certificate(
         bound_violation_mm: bound_violation_mm(&sight.map, built.field, &sight.groups, relief),
         clamp_mm: relief.clamp_mm,
         order_inversions: turned + shape.depths.solved.broken,
-        duality_gap_rel: gap,
-        primal_residual,
-        dual_residual,
+        proof: proof(&shape.depths.solved),
+        not_an_optimum: shape.depths.solved.not_an_optimum,
         coverage: coverage.share(),
         reaching: coverage.share() - share(sighted.lost_sr.iter().sum(), whole),
         models: models
@@ -130,4 +123,19 @@ fn certificate(
         tolerance: confirmed_tolerance(built, sight, relief),
     };
     (certificate, unseen)
+}
+
+/// What proves that depths are an optimum, if they are meant to be one.
+fn proof(solved: &Solved) -> Option<Proof> {
+    let Optimality {
+        gap,
+        primal_residual,
+        dual_residual,
+        ..
+    } = solved.optimality;
+    solved.not_an_optimum.is_none().then_some(Proof {
+        duality_gap_rel: gap,
+        primal_residual,
+        dual_residual,
+    })
 }

@@ -41,7 +41,7 @@ pub fn camouflages(built: &Built) -> Vec<Camouflage> {
     }
     let floor = scene.supports.iter().find_map(|s| match s.kind {
         SupportKind::Base { top, .. } => Some(top),
-        SupportKind::Pillar { .. } => None,
+        SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,
     });
     let floor = floor.unwrap_or(whole.bounds().0.z);
     let views = scene.views.iter();

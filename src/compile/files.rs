@@ -2,10 +2,13 @@
 
 use super::OutputFile;
 use super::pictures::Pictures;
+use super::sight::Shape;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
-use crate::formats::{Camera, Metadata, Part, write_3mf, write_glb, write_stl};
+use crate::formats::{
+    Camera, Metadata, Part, write_3mf, write_glb, write_stl, write_surface_obj, write_surface_ply,
+};
 use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
@@ -43,8 +46,8 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     let meta = Metadata {
         title: scene.title.clone(),
         description: format!(
-            "A pillar forest of {}: {}",
-            pillars(scene),
+            "{} by pillarforest: {}",
+            carriers(scene),
             scene
                 .views
                 .iter()
@@ -84,6 +87,20 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     files
 }
 
+/// The optimised surfaces that were kept, as PLY and OBJ.
+pub fn surface_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
+    let mut files = Vec::new();
+    for (view, shape) in scene.views.iter().zip(shapes) {
+        let Some(surface) = &shape.surface else {
+            continue;
+        };
+        let path = |extension| format!("surface-{}.{extension}", view.name);
+        files.push(file(path("ply"), write_surface_ply(surface)));
+        files.push(file(path("obj"), write_surface_obj(surface)));
+    }
+    files
+}
+
 fn view_camera(view: &View) -> Camera {
     let (plane, half) = camera(view);
     Camera {
@@ -118,8 +135,20 @@ pub fn pillars(scene: &Scene) -> usize {
         .count()
 }
 
+/// What reliefs are carried by: "27 pillars", "1 support", or both.
+pub fn carriers(scene: &Scene) -> String {
+    let bodies = scene.supports.iter().filter(|s| s.is_body()).count();
+    let pillars = pillars(scene);
+    let plural = if bodies == 1 { "" } else { "s" };
+    match (pillars, bodies) {
+        (_, 0) => format!("{pillars} pillars"),
+        (0, _) => format!("{bodies} support{plural}"),
+        _ => format!("{pillars} pillars, {bodies} other support{plural}"),
+    }
+}
+
 pub fn counts(scene: &Scene) -> String {
-    format!("{} pillars, {} views", pillars(scene), scene.views.len())
+    format!("{}, {} views", carriers(scene), scene.views.len())
 }
 
 pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
@@ -132,8 +161,8 @@ pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String 
         .map(|(v, p)| format!("{} {:.1} deg", v.name, p.likeness.mean_deg))
         .collect();
     format!(
-        "{} pillars, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
-        pillars(scene),
+        "{}, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
+        carriers(scene),
         size.x,
         size.y,
         size.z,

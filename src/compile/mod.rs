@@ -23,11 +23,11 @@ use crate::scene::{Scene, laid_out};
 use crate::viewmap::SupportField;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
-use files::{counts, file, plan_files, printable_files, summary};
+use files::{counts, file, plan_files, printable_files, summary, surface_files};
 use page::page;
 use pictures::{picture_files, pictures};
 use rayon::prelude::*;
-use sight::{Shape, Sight, see};
+use sight::{Shape, Sight, see, unsettled};
 use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 use verdict::failures;
@@ -148,14 +148,17 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     }
     progress("quadratic programs", 0.15);
     let shapes = all(sights.par_iter().map(|s| s.shape(scene, &field)))?;
+    let warnings: Vec<Diagnostic> = warnings
+        .into_iter()
+        .chain(unsettled(&sights, &shapes))
+        .collect();
     progress("solids", 0.45);
     let reliefs: Vec<ViewRelief> = sights
         .iter()
         .zip(&shapes)
         .map(|(s, r)| s.relief(&r.relief))
         .collect();
-    let forest =
-        carve(&scene.supports, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
+    let forest = carve(&field, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
     progress("pictures", 0.7);
     let built = Built {
         bvh: Bvh::new(forest.whole.mesh()),
@@ -190,6 +193,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     let certificates = certificates(&built, &bodies);
     progress("files", 0.9);
     let mut files = printable_files(scene, &built.forest);
+    files.extend(surface_files(scene, &built.shapes));
     if let Some(split) = &split {
         let (pieces, warning) = split_files(scene, split);
         files.extend(pieces);

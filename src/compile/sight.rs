@@ -11,6 +11,7 @@ use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
 use crate::scene::Scene;
 use crate::steps::{StepLine, StepSummary, torn};
+use crate::surface::{Surface, surface, torn_surface};
 use crate::view::View;
 use crate::viewmap::{SupportField, Target, ViewMap, view_map};
 
@@ -30,6 +31,22 @@ pub struct Shape {
     pub relief: Relief,
     /// Where the surface was torn, if it might be.
     pub steps: Option<(Vec<StepLine>, StepSummary)>,
+    /// The surface before it was cut, if it is wanted.
+    pub surface: Option<Surface>,
+}
+
+/// Warnings of iterations that did not converge.
+pub fn unsettled(sights: &[Sight], shapes: &[Shape]) -> Vec<Diagnostic> {
+    let views = sights.iter().zip(shapes);
+    let warning = |(sight, shape): (&Sight, &Shape)| {
+        let text = shape.depths.iterated.as_ref()?.warning()?;
+        Some(
+            Diagnostic::warning(format!("view \"{}\": {text}", sight.view.name)).help(
+                "`iterate: 0` is the paper's own energy; iterating works for small, regular meshes",
+            ),
+        )
+    };
+    views.filter_map(warning).collect()
 }
 
 /// Projects, maps and groups one view.
@@ -40,7 +57,8 @@ pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Di
     let failed = |text: String| vec![Diagnostic::error(format!("view \"{}\": {text}", view.name))];
     let plane = ImagePlane::looking_at(view.eye, view.look_at);
     let target = Target::new(view.target(), &plane)
-        .ok_or_else(|| failed("part of its models lies beside or behind the eye".into()))?;
+        .ok_or_else(|| failed("part of its models lies beside or behind the eye".into()))?
+        .marked(view.marks());
     let map = view_map(plane, &target, field).map_err(|e| failed(e.to_string()))?;
     let groups = groups(&view.name, &map, &target, field)?;
     if groups.groups.is_empty() {
@@ -105,7 +123,7 @@ impl Sight<'_> {
         Ok(())
     }
 
-    /// Optimises, cuts and scales back.
+    /// Optimises, cuts and scales back. A surface with free vertices stays in one piece: tears are found within a layer.
     pub fn shape(&self, scene: &Scene, field: &SupportField) -> Result<Shape, Vec<Diagnostic>> {
         let Self {
             target,
@@ -114,11 +132,14 @@ impl Sight<'_> {
             ..
         } = self;
         let explained = |e| vec![self.explain(e, field)];
-        if let (Energy::Normal(options), Some(steps)) = (scene.energy, &scene.steps) {
+        let wanted = scene.output.surface;
+        let steps = scene.steps.as_ref().filter(|_| target.free.is_empty());
+        if let (Energy::Normal(options), Some(steps)) = (scene.energy, steps) {
             let torn = torn(steps, options, target, map, field, groups);
             // Its rows belong to the cut mesh: only the kind of failure is told.
             let torn = torn.map_err(|e| explained(e.without_row()))?;
             return Ok(Shape {
+                surface: wanted.then(|| torn_surface(self.view, &torn)),
                 relief: relief(&torn.map, &torn.target, field, &torn.groups, &torn.depths),
                 depths: torn.depths,
                 steps: Some((torn.lines, torn.summary)),
@@ -126,6 +147,7 @@ impl Sight<'_> {
         }
         let depths = depths(scene.energy, target, map, groups).map_err(explained)?;
         Ok(Shape {
+            surface: wanted.then(|| surface(self.view, groups, &depths)),
             relief: relief(map, target, field, groups, &depths),
             depths,
             steps: None,

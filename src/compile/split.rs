@@ -31,6 +31,7 @@ pub fn pieces(scene: &Scene, forest: &Forest) -> Result<Split, Diagnostic> {
         let help = match e {
             SplitError::ThinBase(_) => "a thicker base: `base: Disc(thickness: 5)`",
             SplitError::SmallBed => "the size of your printer: `printer: (bed: (256, 256, 256))`",
+            SplitError::Body(_) => "without `--split`: slicers cut other bodies",
             SplitError::Carve(_) => "without `--split` the forest comes in one piece",
         };
         Diagnostic::error(format!("the forest cannot be split: {e}")).help(help)

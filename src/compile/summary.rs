@@ -24,6 +24,7 @@ pub fn report(
             cells: Some(sight.map.cells.len()),
             steps: shape.steps.as_ref().map(|s| s.1),
             program: Some(program(&shape.depths.solved)),
+            iterated: shape.depths.iterated.clone(),
             lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
             ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)
         });

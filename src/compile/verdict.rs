@@ -2,16 +2,12 @@
 
 use crate::certify::printability::PrintCheck;
 use crate::diag::Diagnostic;
-use crate::mimic::Energy;
 use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Report};
 use crate::scene::Scene;
 
 /// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
 pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    let ordered = match scene.energy {
-        Energy::Normal(o) => o.ordering,
-        Energy::Curvature(o) => o.ordering,
-    };
+    let ordered = scene.energy.ordering();
     let mut failures: Vec<Diagnostic> = unseen.into_iter().map(Diagnostic::into_error).collect();
     for view in &report.views {
         if let Some(certificate) = &view.certificate {
@@ -70,9 +66,7 @@ fn of_view(name: &str, found: &CertificateReport, ordered: bool, failures: &mut 
         ),
         "thicker layers (`front`, `back`) leave the solver more room; `ordering: false` in `energy` allows it",
     );
-    let gap = (found.duality_gap_rel)
-        .max(found.primal_residual)
-        .max(found.dual_residual);
+    let gap = found.proof.map_or(0.0, |p| p.worst());
     fail(
         gap <= OPTIMAL,
         format!(

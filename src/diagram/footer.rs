@@ -5,7 +5,7 @@ use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::eyes::{eye_symbol, room_of_eye};
 use crate::diagram::lettering::Face;
 use crate::diagram::page::{
-    BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, outline, pale,
+    BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, pale,
 };
 use crate::support::SupportKind;
 use glam::DVec2;
@@ -100,7 +100,7 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         .iter()
         .filter(|s| matches!(s.kind, SupportKind::Base { .. }))
     {
-        let points: Vec<DVec2> = outline(support).iter().map(|p| place(*p)).collect();
+        let points: Vec<DVec2> = support.outline().iter().map(|p| place(*p)).collect();
         drawing.polygon(&points, Some(BASE), Some(Pen::new(HAIR, 0.2 * page.u)));
     }
     for (sight, view) in facts.sights.iter().zip(facts.views) {

@@ -6,7 +6,7 @@
 use crate::diagram::Plan;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::lettering::{Face, width};
-use crate::diagram::page::{BASE, HAIR, PAPER, QUIET, TEXT, deep, length, outline};
+use crate::diagram::page::{BASE, HAIR, PAPER, QUIET, TEXT, deep, length};
 use crate::split::Split;
 use crate::support::{Support, SupportKind};
 use crate::view::View;
@@ -36,7 +36,7 @@ struct Sheet {
 
 impl Sheet {
     fn new(supports: &[Support]) -> Self {
-        let points = || supports.iter().flat_map(|s| outline(s).iter().copied());
+        let points = || supports.iter().flat_map(|s| s.outline().iter().copied());
         let lo = points().reduce(DVec2::min).unwrap_or_default();
         let hi = points().reduce(DVec2::max).unwrap_or_default();
         let short = (NARROWEST - 2.0 * MARGIN - (hi.x - lo.x)).max(0.0) / 2.0;
@@ -77,7 +77,7 @@ fn base(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support]) {
         .iter()
         .filter(|s| matches!(s.kind, SupportKind::Base { .. }));
     for support in bases {
-        let points: Vec<DVec2> = outline(support).iter().map(|p| sheet.at(*p)).collect();
+        let points: Vec<DVec2> = support.outline().iter().map(|p| sheet.at(*p)).collect();
         drawing.polygon(&points, Some(BASE), Some(Pen::new(TEXT, 2.0 * FINE)));
     }
 }

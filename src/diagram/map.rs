@@ -4,7 +4,7 @@ use crate::diagram::Facts;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::eyes::eyes;
 use crate::diagram::lettering::{Face, width};
-use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, outline, pale};
+use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, pale};
 use crate::diagram::sight::{Run, Sight};
 use crate::support::{Support, SupportKind};
 use glam::DVec2;
@@ -56,7 +56,7 @@ fn base(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         .filter(|s| matches!(s.kind, SupportKind::Base { .. }))
     {
         drawing.polygon(
-            &page.outline(outline(support)),
+            &page.outline(support.outline()),
             Some(BASE),
             Some(Pen::new(HAIR, 0.35 * page.u)),
         );
@@ -115,7 +115,7 @@ pub fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
 
 fn pillars(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     for (support, owner) in facts.supports.iter().zip(&facts.owners) {
-        if !matches!(support.kind, SupportKind::Pillar { .. }) {
+        if matches!(support.kind, SupportKind::Base { .. }) {
             continue;
         }
         let (fill, line) = match owner {
@@ -126,7 +126,7 @@ fn pillars(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             None => (FREE, QUIET),
         };
         drawing.polygon(
-            &page.outline(outline(support)),
+            &page.outline(support.outline()),
             Some(fill),
             Some(Pen::new(line, 0.25 * page.u)),
         );

@@ -6,7 +6,7 @@
 use crate::diagram::Facts;
 use crate::diagram::drawing::{Anchor, Ink, TextStyle};
 use crate::diagram::lettering::Face;
-use crate::support::{Support, SupportKind};
+use crate::support::Support;
 use glam::DVec2;
 
 pub const PAPER: Ink = Ink::new([0xFC, 0xFB, 0xF8]);
@@ -56,7 +56,7 @@ pub struct Page {
 
 impl Page {
     pub fn new(facts: &Facts) -> Self {
-        let outlines = facts.supports.iter().flat_map(outline);
+        let outlines = facts.supports.iter().flat_map(Support::outline);
         let (centre, radius) = circle(outlines.copied());
         let rows = facts.views.len() as f64;
         let u = radius / 60.0;
@@ -155,14 +155,6 @@ pub fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
         (centre, radius)
     } else {
         (DVec2::ZERO, 60.0)
-    }
-}
-
-/// Outline of a support from above.
-pub fn outline(support: &Support) -> &[DVec2] {
-    match &support.kind {
-        SupportKind::Pillar { profile, .. } => profile,
-        SupportKind::Base { outline, .. } => outline,
     }
 }
 

@@ -111,7 +111,7 @@ impl Sight {
         };
         // The limits of a flat slab are straight: the ends tell all.
         let step = match layer.datum {
-            Datum::AxisPlane => run.hits.len().saturating_sub(1).max(1),
+            Datum::Plane => run.hits.len().saturating_sub(1).max(1),
             Datum::Surface => 1,
         };
         let rays = run.hits.iter().step_by(step);
@@ -132,7 +132,7 @@ impl Sight {
         let distance = self.eye.distance(axis);
         let at = match layer.datum {
             Datum::Surface => hit,
-            Datum::AxisPlane => distance * distance / self.direction(angle).dot(axis - self.eye),
+            Datum::Plane => distance * distance / self.direction(angle).dot(axis - self.eye),
         };
         [
             at * (1.0 - layer.front / distance),

@@ -5,11 +5,11 @@
 
 use crate::diag::{Diagnostic, Warned};
 use crate::formats::read::{MeshFormat, NamedMesh, read_bodies};
-use crate::mesh::TriMesh;
 use crate::mesh::defects::{Defect, check};
 use crate::mesh::gate::unit_suspicion;
 use crate::mesh::topology::{Edges, vertex_parts};
 use crate::mesh::weld::{rounded_to_f32, weld};
+use crate::mesh::{Attributes, TriMesh};
 use serde::Serialize;
 use std::fmt;
 
@@ -83,6 +83,7 @@ pub fn inspect(file_name: &str, bytes: &[u8]) -> Result<Warned<Inspection>, Diag
         body_report(NamedMesh {
             name: "all together".to_owned(),
             mesh: whole,
+            attributes: Attributes::default(),
         })
     });
     let inspection = Inspection {

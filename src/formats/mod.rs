@@ -1,8 +1,11 @@
 //! Files: reading meshes from people's files, and writing ours.
 //!
 //! Writers take solids and give bytes; they touch no file and no clock, and the same input gives the same bytes.
-//! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake.
+//! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake; only a
+//! [`crate::surface::Surface`], which is for other programs, may have any.
 
+mod colours;
+mod columns;
 mod glb;
 pub mod inspect;
 pub mod markup;
@@ -12,14 +15,16 @@ mod read_obj;
 mod read_ply;
 mod read_stl;
 mod stl;
+mod surface;
 mod text;
 mod threemf;
 mod xml_3mf;
 
 pub use glb::{Camera, write_glb};
 pub use inspect::{Inspection, inspect};
-pub use read::{load_model, read_mesh};
+pub use read::{Model, load_model, load_original, read_mesh};
 pub use stl::write_stl;
+pub use surface::{write_surface_obj, write_surface_ply};
 pub use threemf::{Metadata, ZipTime, write_3mf};
 
 use crate::mesh::Solid;

@@ -5,8 +5,8 @@
 
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::{read_3mf, read_obj, read_ply, read_stl};
-use crate::mesh::TriMesh;
-use crate::mesh::gate::{gate, unit_suspicion};
+use crate::mesh::gate::{Gated, gate_traced, unit_suspicion};
+use crate::mesh::{Attributes, Original, TriMesh};
 
 /// Formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +47,15 @@ pub struct NamedMesh {
     /// Empty where the format has no names.
     pub name: String,
     pub mesh: TriMesh,
+    /// Of `mesh`; 3MF and STL have none that are read.
+    pub attributes: Attributes,
+}
+
+/// A model fit to be looked at, and what its file has.
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub mesh: TriMesh,
+    pub original: Original,
 }
 
 /// The mesh of a file as it stands there; 3MF objects are put together, each with vertices of its own.
@@ -54,7 +63,25 @@ pub struct NamedMesh {
 /// # Errors
 /// One message with the file and, as far as there is one, the line or byte.
 pub fn read_mesh(file_name: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
-    let Warned { value, warnings } = read_bodies(file_name, bytes)?;
+    let Warned { value, warnings } = read_whole(file_name, bytes)?;
+    Ok(Warned {
+        value: value.mesh,
+        warnings,
+    })
+}
+
+/// All bodies of a file as one. A file of several has no attributes.
+fn read_whole(file_name: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
+    let Warned {
+        mut value,
+        warnings,
+    } = read_bodies(file_name, bytes)?;
+    if value.len() == 1 {
+        return Ok(Warned {
+            value: value.remove(0),
+            warnings,
+        });
+    }
     let mut whole = TriMesh::default();
     for body in &value {
         if whole.vertices.len() + body.mesh.vertices.len() > u32::MAX as usize {
@@ -64,7 +91,11 @@ pub fn read_mesh(file_name: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagn
         whole.append(&body.mesh);
     }
     Ok(Warned {
-        value: whole,
+        value: NamedMesh {
+            name: String::new(),
+            mesh: whole,
+            attributes: Attributes::default(),
+        },
         warnings,
     })
 }
@@ -76,16 +107,22 @@ pub fn read_mesh(file_name: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagn
 pub fn read_bodies(file_name: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, Diagnostic> {
     let format = sniffed_format(file_name, bytes)
         .map_err(|why| Diagnostic::error(why).at(Place::File(file_name.to_owned())))?;
-    let single = |read: Warned<TriMesh>| Warned {
-        value: vec![NamedMesh {
-            name: String::new(),
-            mesh: read.value,
-        }],
+    let single = |read: Warned<NamedMesh>| Warned {
+        value: vec![read.value],
         warnings: read.warnings,
     };
     match format {
         MeshFormat::Obj => read_obj::read(file_name, bytes).map(single),
-        MeshFormat::Stl => read_stl::read(file_name, bytes).map(single),
+        MeshFormat::Stl => read_stl::read(file_name, bytes).map(|read| {
+            single(Warned {
+                value: NamedMesh {
+                    name: String::new(),
+                    mesh: read.value,
+                    attributes: Attributes::default(),
+                },
+                warnings: read.warnings,
+            })
+        }),
         MeshFormat::Ply => read_ply::read(file_name, bytes).map(single),
         MeshFormat::ThreeMf => read_3mf::read(file_name, bytes),
     }
@@ -101,15 +138,42 @@ pub fn load_model(
     bytes: &[u8],
     at_own_size: bool,
 ) -> Result<Warned<TriMesh>, Diagnostic> {
-    let read = read_mesh(file_name, bytes)?;
-    let mut warnings = read.warnings;
-    let gated = gate(file_name, read.value)?;
-    warnings.extend(gated.warnings);
-    if at_own_size {
-        warnings.extend(unit_suspicion(file_name, &gated.value));
-    }
+    let Warned { value, warnings } = load_original(file_name, bytes, at_own_size)?;
     Ok(Warned {
-        value: gated.value,
+        value: value.mesh,
+        warnings,
+    })
+}
+
+/// As [`load_model`], with what the file has besides.
+///
+/// # Errors
+/// As [`load_model`].
+pub fn load_original(
+    file_name: &str,
+    bytes: &[u8],
+    at_own_size: bool,
+) -> Result<Warned<Model>, Diagnostic> {
+    let read = read_whole(file_name, bytes)?;
+    let mut warnings = read.warnings;
+    let NamedMesh {
+        mesh: as_read,
+        attributes,
+        ..
+    } = read.value;
+    let gated = gate_traced(file_name, as_read.clone())?;
+    warnings.extend(gated.warnings);
+    let Gated { mesh, vertex_of } = gated.value;
+    if at_own_size {
+        warnings.extend(unit_suspicion(file_name, &mesh));
+    }
+    let original = Original {
+        mesh: as_read,
+        attributes,
+        vertex_of,
+    };
+    Ok(Warned {
+        value: Model { mesh, original },
         warnings,
     })
 }

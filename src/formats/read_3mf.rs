@@ -7,6 +7,7 @@ use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::read::NamedMesh;
 use crate::formats::text::excerpt;
 use crate::formats::xml_3mf::{self, Instance, ModelPart, XmlObject};
+use crate::mesh::Attributes;
 use glam::{DMat4, DVec3};
 use quick_xml::events::Event;
 use std::io::{Cursor, Read};
@@ -247,5 +248,6 @@ fn placed(object: &XmlObject, matrix: DMat4, unit_mm: f64, name: String) -> Name
     NamedMesh {
         name,
         mesh: object.mesh.transformed(scale * matrix),
+        attributes: Attributes::default(),
     }
 }

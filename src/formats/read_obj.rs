@@ -1,14 +1,17 @@
-//! Wavefront OBJ: positions and faces only.
+//! Wavefront OBJ: positions, faces, texture points of face corners and colours of vertices (`v x y z r g b`).
 //!
 //! Every line is checked here first, with its number; `tobj` then reads what is left (`v` and `f` lines with absolute
 //! position indices), because its own errors name no line, it splits meshes at groups and seams, rejects continued
-//! lines, and a bad material file makes it panic.
+//! lines, and a bad material file makes it panic. Vertices and faces keep the file's order. Colours and texture points that
+//! cannot be used are left out with a warning: the surface is there without them.
 
 use crate::diag::{Diagnostic, Place, Warned};
+use crate::formats::colours::Colours;
+use crate::formats::read::NamedMesh;
 use crate::formats::text::{at_line, coordinate, excerpt, lines, without_bom};
-use crate::mesh::TriMesh;
 use crate::mesh::polygon::triangulate;
-use glam::DVec3;
+use crate::mesh::{Attributes, NO_UV, TriMesh, Uvs};
+use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
 /// Keywords of the format that say nothing about the surface.
@@ -51,7 +54,7 @@ const MAX_NAME: usize = 255;
 
 /// # Errors
 /// The first line that cannot be read as what it claims to be, or a file without faces.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
+pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
     let mut scan = Scan::new(file, bytes);
     for (number, line) in logical_lines(without_bom(bytes)) {
         scan.line(number, &line)?;
@@ -99,10 +102,15 @@ struct Scan<'a> {
     file: &'a str,
     bytes: &'a [u8],
     positions: Vec<DVec3>,
-    texture_points: i64,
+    colours: Colours,
+    texture_points: Vec<DVec2>,
+    /// The first texture point that is none: its line, and why.
+    bad_texture: Option<(usize, String)>,
     normals: i64,
     /// Absolute 1-based position indices.
     corners: Vec<i64>,
+    /// Absolute 1-based indices of their texture points; 0: none.
+    textures: Vec<i64>,
     polygons: Vec<Polygon>,
     /// Largest vt and vn index with its line: they may be defined later.
     largest_vt: (i64, usize),
@@ -117,9 +125,12 @@ impl<'a> Scan<'a> {
             file,
             bytes,
             positions: Vec::new(),
-            texture_points: 0,
+            colours: Colours::default(),
+            texture_points: Vec::new(),
+            bad_texture: None,
             normals: 0,
             corners: Vec::new(),
+            textures: Vec::new(),
             polygons: Vec::new(),
             largest_vt: (0, 0),
             largest_vn: (0, 0),
@@ -147,7 +158,7 @@ impl<'a> Scan<'a> {
             b"v" => self.vertex(number, line, words),
             b"f" | b"fo" => self.face(number, line, words),
             b"vt" => {
-                self.texture_points += 1;
+                self.texture_point(number, words);
                 Ok(())
             }
             b"vn" => {
@@ -181,12 +192,11 @@ impl<'a> Scan<'a> {
         &mut self,
         number: usize,
         line: &[u8],
-        words: impl Iterator<Item = &'w [u8]>,
+        mut words: impl Iterator<Item = &'w [u8]>,
     ) -> Result<(), Diagnostic> {
         let mut position = [0.0; 3];
         let mut count = 0;
-        // Beyond the third number: a weight or a colour.
-        for word in words.take(3) {
+        for word in words.by_ref().take(3) {
             position[count] = coordinate(word).map_err(|why| {
                 let message = format!(
                     "vertex {} has a coordinate that is {why}",
@@ -201,7 +211,27 @@ impl<'a> Scan<'a> {
             return Err(at_line(self.file, number, line, message));
         }
         self.positions.push(DVec3::from_array(position));
+        // Three more numbers are a colour; one is a weight, and what more would be nobody agrees on.
+        let more: Vec<&[u8]> = words.take(4).collect();
+        if let [r, g, b] = more[..] {
+            self.colours.add_words(number, [r, g, b]);
+        } else {
+            self.colours.add_none();
+        }
         Ok(())
+    }
+
+    fn texture_point<'w>(&mut self, number: usize, words: impl Iterator<Item = &'w [u8]>) {
+        let mut point = [0.0; 2];
+        for (k, word) in words.take(2).enumerate() {
+            match coordinate(word) {
+                Ok(value) => point[k] = value,
+                Err(why) => {
+                    self.bad_texture.get_or_insert((number, why));
+                }
+            }
+        }
+        self.texture_points.push(point.into());
     }
 
     fn face<'w>(
@@ -212,10 +242,11 @@ impl<'a> Scan<'a> {
     ) -> Result<(), Diagnostic> {
         let first = self.corners.len();
         for word in words {
-            let corner = self
+            let (corner, texture) = self
                 .corner(number, word)
                 .map_err(|why| at_line(self.file, number, line, why))?;
             self.corners.push(corner);
+            self.textures.push(texture);
         }
         let count = self.corners.len() - first;
         if count < 3 {
@@ -231,21 +262,23 @@ impl<'a> Scan<'a> {
         Ok(())
     }
 
-    /// The absolute position index of `7`, `7/1`, `7//3`, `7/1/3` or of the same with negative (relative) numbers.
-    fn corner(&mut self, number: usize, word: &[u8]) -> Result<i64, String> {
+    /// The absolute indices of position and texture point (0: none) of `7`, `7/1`, `7//3`, `7/1/3` or of the same with
+    /// negative (relative) numbers.
+    fn corner(&mut self, number: usize, word: &[u8]) -> Result<(i64, i64), String> {
         let mut parts = word.split(|b| *b == b'/');
         let position = index(
             parts.next().unwrap_or_default(),
             self.positions.len() as i64,
             "vertex",
         )?;
+        let mut point = 0;
         for (part, texture) in parts.by_ref().take(2).zip([true, false]) {
             if part.is_empty() {
                 continue;
             }
             if texture {
-                let vt = index(part, self.texture_points, "texture")?;
-                self.largest_vt = self.largest_vt.max((vt, number));
+                point = index(part, self.texture_points.len() as i64, "texture")?;
+                self.largest_vt = self.largest_vt.max((point, number));
             } else {
                 let vn = index(part, self.normals, "normal")?;
                 self.largest_vn = self.largest_vn.max((vn, number));
@@ -256,11 +289,11 @@ impl<'a> Scan<'a> {
                 "a face corner with too many slashes: `{}`",
                 excerpt(word)
             )),
-            None => Ok(position),
+            None => Ok((position, point)),
         }
     }
 
-    fn finish(self) -> Result<Warned<TriMesh>, Diagnostic> {
+    fn finish(self) -> Result<Warned<NamedMesh>, Diagnostic> {
         let whole =
             |message: String| Err(Diagnostic::error(message).at(Place::File(self.file.to_owned())));
         if self.polygons.is_empty() {
@@ -270,14 +303,45 @@ impl<'a> Scan<'a> {
             };
         }
         self.check_range()?;
-        let mesh = match self.through_tobj() {
-            Ok(mesh) => mesh,
+        let (mesh, corners) = match self.through_tobj() {
+            Ok(read) => read,
             Err(why) => return whole(format!("the file cannot be read as OBJ: {why}")),
         };
+        let mut warnings = self.warnings();
+        let uvs = self.uvs(corners);
+        let colours = self.colours.finish(self.file);
+        warnings.extend(colours.as_ref().err().cloned());
         Ok(Warned {
-            warnings: self.warnings(),
-            value: mesh,
+            warnings,
+            value: NamedMesh {
+                name: String::new(),
+                mesh,
+                attributes: Attributes {
+                    colours: colours.unwrap_or_default(),
+                    uvs,
+                    scalars: Vec::new(),
+                },
+            },
         })
+    }
+
+    /// Texture points of all face corners, of which `corners` are the places in `textures`; `None` if there are none that
+    /// can be used.
+    fn uvs(&self, corners: Vec<[usize; 3]>) -> Option<Uvs> {
+        let none = self.largest_vt.0 == 0;
+        if none || self.bad_texture.is_some() || self.dangling() {
+            return None;
+        }
+        let point = |c: usize| u32::try_from(self.textures[c] - 1).unwrap_or(NO_UV);
+        Some(Uvs {
+            corners: corners.into_iter().map(|c| c.map(point)).collect(),
+            points: self.texture_points.clone(),
+        })
+    }
+
+    /// Whether faces use texture points or normals that the file does not have.
+    fn dangling(&self) -> bool {
+        self.largest_vt.0 > self.texture_points.len() as i64 || self.largest_vn.0 > self.normals
     }
 
     /// Faces may come before their vertices, so this waits for the end.
@@ -297,7 +361,8 @@ impl<'a> Scan<'a> {
         Ok(())
     }
 
-    fn through_tobj(&self) -> Result<TriMesh, tobj::LoadError> {
+    /// The mesh with the file's vertices and faces, and where the corners of its faces stand in `corners`.
+    fn through_tobj(&self) -> Result<(TriMesh, Vec<[usize; 3]>), tobj::LoadError> {
         let mut clean = String::new();
         for p in &self.positions {
             // `{:?}` prints enough digits to read the same bits back.
@@ -313,20 +378,18 @@ impl<'a> Scan<'a> {
         let options = tobj::LoadOptions::default();
         let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
         let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)?;
-        let mut mesh = TriMesh::default();
+        let mut corners: Vec<[usize; 3]> = Vec::new();
+        let mut first = 0;
         for model in &models {
-            mesh.append(&from_tobj(&model.mesh));
+            let (found, count) = from_tobj(&model.mesh);
+            corners.extend(found.into_iter().map(|t| t.map(|k| first + k as usize)));
+            first += count;
         }
-        // `tobj` keeps only what faces use; whoever checks the mesh is to see the rest too.
-        let mut used = vec![false; self.positions.len()];
-        for corner in &self.corners {
-            used[*corner as usize - 1] = true;
-        }
-        let stray = (0..used.len())
-            .filter(|v| !used[*v])
-            .map(|v| self.positions[v]);
-        mesh.vertices.extend(stray);
-        Ok(mesh)
+        // `tobj` numbers vertices as faces come to use them: the file's own indices stand in `corners`.
+        let index = |c: usize| self.corners[c] as u32 - 1;
+        let faces = corners.iter().map(|t| t.map(index)).collect();
+        let vertices = self.positions.clone();
+        Ok((TriMesh { vertices, faces }, corners))
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
@@ -338,8 +401,8 @@ impl<'a> Scan<'a> {
                 excerpt: String::new(),
             }));
         };
-        let missing_vt = self.largest_vt.0 > self.texture_points;
-        if missing_vt || self.largest_vn.0 > self.normals {
+        let missing_vt = self.largest_vt.0 > self.texture_points.len() as i64;
+        if self.dangling() {
             let (_, line) = if missing_vt {
                 self.largest_vt
             } else {
@@ -348,8 +411,19 @@ impl<'a> Scan<'a> {
             warn(
                 line,
                 format!(
-                    "faces use texture point {} and normal {}, but the file has {} and {}: only positions are read",
-                    self.largest_vt.0, self.largest_vn.0, self.texture_points, self.normals
+                    "faces use texture point {} and normal {}, but the file has {} and {}: texture points are not used",
+                    self.largest_vt.0,
+                    self.largest_vn.0,
+                    self.texture_points.len(),
+                    self.normals
+                ),
+            );
+        }
+        if let Some((line, why)) = &self.bad_texture {
+            warn(
+                *line,
+                format!(
+                    "a texture point has a coordinate that is {why}: texture points are not used"
                 ),
             );
         }
@@ -395,16 +469,17 @@ fn index(word: &[u8], so_far: i64, kind: &str) -> Result<i64, String> {
     }
 }
 
-/// A model of `tobj` read without triangulation; polygons of more than three corners are cut here.
-fn from_tobj(mesh: &tobj::Mesh) -> TriMesh {
+/// The triangles of a model of `tobj` read without triangulation, as places in its list of corners, of which it has so many.
+fn from_tobj(mesh: &tobj::Mesh) -> (Vec<[u32; 3]>, usize) {
     let vertices: Vec<DVec3> = mesh
         .positions
         .chunks_exact(3)
         .map(DVec3::from_slice)
         .collect();
-    let mut faces = Vec::with_capacity(mesh.indices.len() / 3);
+    let mut triangles = Vec::with_capacity(mesh.indices.len() / 3);
     let mut rest = mesh.indices.as_slice();
     let mut arities = mesh.face_arities.iter();
+    let mut first = 0;
     while !rest.is_empty() {
         let count = arities
             .next()
@@ -413,12 +488,12 @@ fn from_tobj(mesh: &tobj::Mesh) -> TriMesh {
         let (polygon, tail) = rest.split_at(count);
         rest = tail;
         let corners: Vec<DVec3> = polygon.iter().map(|v| vertices[*v as usize]).collect();
-        let triangles = triangulate(&corners);
-        faces.extend(
-            triangles
+        triangles.extend(
+            triangulate(&corners)
                 .into_iter()
-                .map(|t| t.map(|k| polygon[k as usize])),
+                .map(|t| t.map(|k| first + k)),
         );
+        first += count as u32;
     }
-    TriMesh { vertices, faces }
+    (triangles, mesh.indices.len())
 }

@@ -1,13 +1,16 @@
 //! PLY: text, little-endian and big-endian, any scalar types, polygons and triangle strips.
 //!
 //! An own reader: the counts of a header are untrusted, so nothing is allocated or looped by them alone; every row
-//! costs bytes of the file.
+//! costs bytes of the file. Colours, texture points (of vertices, or of face corners as the list `texcoord`) and all other
+//! numbers of vertices are kept where they can be used.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::text::{at_byte, at_line, check_coordinate, coordinate, excerpt};
-use crate::mesh::TriMesh;
+use crate::formats::columns::Columns;
+use crate::formats::read::NamedMesh;
+use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
 use crate::mesh::polygon::triangulate;
-use glam::DVec3;
+use crate::mesh::{TriMesh, Uvs};
+use glam::{DVec2, DVec3};
 
 /// Real headers have some ten lines; scanners' up to a hundred.
 const MAX_HEADER_LINES: usize = 4096;
@@ -15,7 +18,7 @@ const MAX_HEADER_BYTES: usize = 1 << 20;
 
 /// # Errors
 /// Headers that lie or name unknown types, rows that end early, coordinates that are not finite, indices out of range.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
+pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
     let header = Header::read(file, bytes)?;
     let mut body = Body {
         file,
@@ -29,8 +32,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
         body.element(element, &mut builder)?;
         builder.vertices_known |= element.name == "vertex";
     }
-    let mesh = builder.finish(file)?;
-    let mut warnings = Vec::new();
+    let (mesh, mut warnings) = builder.finish(file)?;
     let left = bytes.get(body.at..).unwrap_or_default().trim_ascii();
     if !left.is_empty() {
         let message = format!(
@@ -88,6 +90,15 @@ impl Scalar {
             Self::I16 | Self::U16 => 2,
             Self::I32 | Self::U32 | Self::F32 => 4,
             Self::F64 => 8,
+        }
+    }
+
+    /// What means 1 in a colour, if the type says so.
+    fn one(self) -> Option<f64> {
+        match self {
+            Self::U8 => Some(255.0),
+            Self::U16 => Some(65535.0),
+            _ => None,
         }
     }
 
@@ -254,21 +265,28 @@ fn property(words: &[&str]) -> Result<Property, String> {
 #[derive(Clone, Copy, PartialEq)]
 enum Role {
     Axis(usize),
+    /// A column of [`Columns`].
+    Column(usize),
     Polygon,
+    /// Texture points of the polygon in the same row.
+    CornerUvs,
     Strip,
     Skip,
 }
 
-fn role(element: &Element, property: &Property) -> Role {
+fn role(element: &Element, property: &Property, columns: &mut Columns) -> Role {
     let indices = matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
     match (element.name.as_str(), property.length.is_some()) {
         ("vertex", false) => match property.name.as_str() {
             "x" => Role::Axis(0),
             "y" => Role::Axis(1),
             "z" => Role::Axis(2),
-            _ => Role::Skip,
+            name => columns
+                .place(name, property.scalar.one())
+                .map_or(Role::Skip, Role::Column),
         },
         ("face", true) if indices => Role::Polygon,
+        ("face", true) if property.name == "texcoord" => Role::CornerUvs,
         ("tristrips", true) if indices => Role::Strip,
         _ => Role::Skip,
     }
@@ -288,7 +306,7 @@ impl Body<'_> {
         let roles: Vec<Role> = element
             .properties
             .iter()
-            .map(|p| role(element, p))
+            .map(|p| role(element, p, &mut builder.columns))
             .collect();
         if element.name == "vertex" && (0..3).any(|axis| !roles.contains(&Role::Axis(axis))) {
             let message = "the element `vertex` lacks a property x, y or z";
@@ -314,6 +332,8 @@ impl Body<'_> {
                 let at = (start, row, element);
                 match role {
                     Role::Axis(axis) => point[*axis] = self.axis(list[0], at)?,
+                    Role::Column(column) => builder.columns.push(*column, list[0]),
+                    Role::CornerUvs => builder.corner_uvs(&list),
                     Role::Polygon => builder.polygon(&list).map_err(|why| self.fail(at, why))?,
                     Role::Strip => builder.strip(&list).map_err(|why| self.fail(at, why))?,
                     Role::Skip => {}
@@ -434,7 +454,7 @@ impl Body<'_> {
 
 fn number(word: &[u8], scalar: Scalar) -> Result<f64, String> {
     if matches!(scalar, Scalar::F32 | Scalar::F64) {
-        return coordinate(word).map_err(|why| format!("a value that is {why}"));
+        return finite(word).map_err(|why| format!("a value that is {why}"));
     }
     let text = std::str::from_utf8(word).unwrap_or_default();
     text.parse::<i64>()
@@ -450,6 +470,10 @@ struct Builder {
     /// Corners of all polygons, and how many each has: vertices may come after the faces.
     corners: Vec<u32>,
     arities: Vec<u32>,
+    columns: Columns,
+    /// Texture points of face corners, and how many of them every row of faces has.
+    uvs: Vec<DVec2>,
+    uv_counts: Vec<u32>,
 }
 
 impl Builder {
@@ -463,6 +487,16 @@ impl Builder {
         }
         self.arities.push(list.len() as u32);
         Ok(())
+    }
+
+    fn corner_uvs(&mut self, list: &[f64]) {
+        let pairs = list.chunks_exact(2);
+        self.uv_counts.push(if list.len().is_multiple_of(2) {
+            pairs.len() as u32
+        } else {
+            u32::MAX
+        });
+        self.uvs.extend(pairs.map(DVec2::from_slice));
     }
 
     /// Strips are ended by -1; every other triangle is turned.
@@ -494,7 +528,7 @@ impl Builder {
         }
     }
 
-    fn finish(self, file: &str) -> Result<TriMesh, Diagnostic> {
+    fn finish(self, file: &str) -> Result<(NamedMesh, Vec<Diagnostic>), Diagnostic> {
         let place = || Place::File(file.to_owned());
         let count = self.vertices.len();
         if self.arities.is_empty() {
@@ -507,21 +541,53 @@ impl Builder {
             );
             return Err(Diagnostic::error(message).at(place()));
         }
-        let mut faces = Vec::with_capacity(self.arities.len());
-        let mut rest = self.corners.as_slice();
+        let corners = self.triangles();
+        let faces = corners.iter().map(|t| t.map(|c| self.corners[c as usize]));
+        let mesh = TriMesh {
+            faces: faces.collect(),
+            vertices: self.vertices,
+        };
+        let (mut attributes, mut warnings) = self.columns.finish(file, count, &mesh.faces);
+        let sound = self.uvs.iter().all(|p| p.is_finite());
+        if sound && self.uv_counts == self.arities {
+            attributes.uvs = Some(Uvs {
+                points: self.uvs,
+                corners,
+            });
+        } else if self.uv_counts.iter().any(|n| *n > 0) {
+            let why = if sound {
+                "some faces have other than two numbers a corner"
+            } else {
+                "some are not finite numbers"
+            };
+            let message = format!("the texture points of face corners are not used: {why}");
+            warnings.push(Diagnostic::warning(message).at(place()));
+        }
+        let name = String::new();
+        Ok((
+            NamedMesh {
+                name,
+                mesh,
+                attributes,
+            },
+            warnings,
+        ))
+    }
+
+    /// All polygons in triangles, as places in `corners`.
+    fn triangles(&self) -> Vec<[u32; 3]> {
+        let mut triangles = Vec::with_capacity(self.arities.len());
+        let mut first = 0;
         for arity in &self.arities {
-            let (polygon, tail) = rest.split_at(*arity as usize);
-            rest = tail;
+            let polygon = &self.corners[first as usize..(first + arity) as usize];
             let points: Vec<DVec3> = polygon.iter().map(|v| self.vertices[*v as usize]).collect();
-            faces.extend(
+            triangles.extend(
                 triangulate(&points)
                     .into_iter()
-                    .map(|t| t.map(|k| polygon[k as usize])),
+                    .map(|t| t.map(|k| first + k)),
             );
+            first += arity;
         }
-        Ok(TriMesh {
-            vertices: self.vertices,
-            faces,
-        })
+        triangles
     }
 }

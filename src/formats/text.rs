@@ -70,10 +70,18 @@ pub fn at_byte(file: &str, offset: usize, message: impl Into<String>) -> Diagnos
 /// # Errors
 /// What is wrong with it, in the words of a message that goes on after "a coordinate that is".
 pub fn coordinate(word: &[u8]) -> Result<f64, String> {
+    finite(word).and_then(check_coordinate)
+}
+
+/// A finite number of any size.
+///
+/// # Errors
+/// As [`coordinate`].
+pub fn finite(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).ok().filter(|t| t.is_ascii());
-    let value = text.and_then(|t| t.parse::<f64>().ok());
-    match value {
-        Some(v) => check_coordinate(v),
+    match text.and_then(|t| t.parse::<f64>().ok()) {
+        Some(v) if v.is_finite() => Ok(v),
+        Some(_) => Err("not a finite number".to_owned()),
         None if word.contains(&b',') => Err(format!(
             "not a number: `{}` (decimals are written with a point)",
             excerpt(word)

@@ -9,7 +9,7 @@ mod planar;
 pub use image_plane::ImagePlane;
 pub use inscribed::{Circle, inscribed};
 pub use planar::{
-    barycentric, contains, gap, narrowest, orient, polygon_area, segment_crossing, to_segment,
+    barycentric, contains, gap, hull, narrowest, orient, polygon_area, segment_crossing, to_segment,
 };
 
 use glam::DVec3;

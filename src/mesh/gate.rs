@@ -9,11 +9,11 @@
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::mesh::TriMesh;
 use crate::mesh::defects::{DefectKind, check};
-use crate::mesh::order::in_order;
+use crate::mesh::order::numbered;
 use crate::mesh::shells::shells;
 use crate::mesh::topology::{Edges, HalfEdge};
 use crate::mesh::weld::{
-    Welded, drop_collapsed, drop_duplicates, drop_unreferenced, weld, weld_some,
+    Welded, drop_collapsed, drop_duplicates, keep_referenced, weld, weld_some,
 };
 use glam::DVec3;
 
@@ -25,13 +25,31 @@ pub const NEEDLE: f64 = 1e-6;
 /// Below this the mesh has no size at all, millimetres.
 const NOTHING: f64 = 1e-12;
 
+/// A mesh fit to be looked at, and where the vertices of the mesh that was read went; `None`: dropped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gated {
+    pub mesh: TriMesh,
+    pub vertex_of: Vec<Option<u32>>,
+}
+
+/// # Errors
+/// As [`gate_traced`].
+pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
+    let Warned { value, warnings } = gate_traced(file, mesh)?;
+    Ok(Warned {
+        value: value.mesh,
+        warnings,
+    })
+}
+
 /// # Errors
 /// A mesh without faces, without extent, or closed but without thickness.
-pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
+pub fn gate_traced(file: &str, mesh: TriMesh) -> Result<Warned<Gated>, Diagnostic> {
     let place = || Place::File(file.to_owned());
     let mut notes = Notes::default();
-    let mesh = clean(mesh, &mut notes).map_err(|why| Diagnostic::error(why).at(place()))?;
-    let left = leftovers(&mesh);
+    let gated = clean(mesh, &mut notes).map_err(|why| Diagnostic::error(why).at(place()))?;
+    let mesh = &gated.mesh;
+    let left = leftovers(mesh);
     let notes = notes.0;
     let mut warnings = Vec::new();
     if !notes.is_empty() || !left.is_empty() {
@@ -54,7 +72,7 @@ pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
         warnings.push(warning);
     }
     Ok(Warned {
-        value: mesh,
+        value: gated,
         warnings,
     })
 }
@@ -72,12 +90,30 @@ impl Notes {
     }
 }
 
-fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<TriMesh, String> {
-    let stray = drop_unreferenced(&mut mesh);
+/// Follows vertices through one more renumbering.
+fn follow(vertex_of: &mut [Option<u32>], next: impl Fn(u32) -> Option<u32>) {
+    for v in vertex_of {
+        *v = v.and_then(&next);
+    }
+}
+
+fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<Gated, String> {
+    let mut vertex_of = keep_referenced(&mut mesh);
+    let stray = vertex_of.iter().filter(|v| v.is_none()).count();
     let size = extent(&mesh)?;
     let closed_as_read = Edges::new(&mesh).iter().all(|e| e.len() > 1);
-    let numbered = in_order(&weld(&mesh, 0.0).mesh);
-    let (mut mesh, joined) = seal_cracks(numbered, CRACK * size.length());
+    let welded = weld(&mesh, 0.0);
+    let (ordered, number) = numbered(&welded.mesh);
+    follow(&mut vertex_of, |v| {
+        Some(number[welded.vertex_of[v as usize] as usize])
+    });
+    let (mut mesh, joined) = match seal_cracks(&ordered, CRACK * size.length()) {
+        Some(sealed) => {
+            follow(&mut vertex_of, |v| Some(sealed.vertex_of[v as usize]));
+            (sealed.mesh, sealed.merged)
+        }
+        None => (ordered, 0),
+    };
     let repeated = drop_collapsed(&mut mesh);
     let duplicates = drop_duplicates(&mut mesh);
     // A flat sheet can be looked at; a body pressed flat is a mistake. What is left of one is folded onto itself.
@@ -91,7 +127,8 @@ fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<TriMesh, String> {
     }
     let turned = orient(&mut mesh);
     let outwards = turn_outwards(&mut mesh);
-    drop_unreferenced(&mut mesh);
+    let kept = keep_referenced(&mut mesh);
+    follow(&mut vertex_of, |v| kept[v as usize]);
     let unused = ["vertex that no face uses", "vertices that no face uses"];
     notes.add("dropped", stray, unused);
     let cracks = ["vertex across a crack", "vertices across cracks"];
@@ -106,7 +143,7 @@ fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<TriMesh, String> {
     notes.add("turned", turned, matched);
     let surfaces = ["closed surface outwards", "closed surfaces outwards"];
     notes.add("turned", outwards, surfaces);
-    Ok(mesh)
+    Ok(Gated { mesh, vertex_of })
 }
 
 fn extent(mesh: &TriMesh) -> Result<DVec3, String> {
@@ -123,24 +160,16 @@ fn extent(mesh: &TriMesh) -> Result<DVec3, String> {
     Ok(hi - lo)
 }
 
-/// Joins vertices of open edges that are nearly at the same place, if that closes any; gives how many.
-fn seal_cracks(mesh: TriMesh, tolerance: f64) -> (TriMesh, usize) {
+/// The mesh with vertices of open edges joined that are nearly at the same place, if that closes any.
+fn seal_cracks(mesh: &TriMesh, tolerance: f64) -> Option<Welded> {
     let mut on_border = vec![false; mesh.vertices.len()];
     let open_edges = |mesh: &TriMesh| Edges::new(mesh).iter().filter(|e| e.len() == 1).count();
-    for edge in Edges::new(&mesh).iter().filter(|e| e.len() == 1) {
+    for edge in Edges::new(mesh).iter().filter(|e| e.len() == 1) {
         on_border[edge[0].low as usize] = true;
         on_border[edge[0].high as usize] = true;
     }
-    let Welded {
-        mesh: sealed,
-        merged,
-        ..
-    } = weld_some(&mesh, tolerance, &on_border);
-    if merged > 0 && open_edges(&sealed) < open_edges(&mesh) {
-        (sealed, merged)
-    } else {
-        (mesh, 0)
-    }
+    let sealed = weld_some(mesh, tolerance, &on_border);
+    (sealed.merged > 0 && open_edges(&sealed.mesh) < open_edges(mesh)).then_some(sealed)
 }
 
 /// Turns faces until neighbours over two-faced edges agree, in each patch the fewer ones; gives how many. On one-sided

@@ -1,5 +1,6 @@
 //! Triangle meshes and what can be said of them without an eye.
 
+pub mod attributes;
 pub mod boxes;
 pub mod defects;
 pub mod detach;
@@ -14,6 +15,7 @@ pub mod solid;
 pub mod topology;
 pub mod weld;
 
+pub use attributes::{Attributes, NO_UV, Original, Scalar, Uvs};
 pub use defects::{Defect, DefectKind, check};
 pub use gate::gate;
 pub use intersect::self_intersections;

@@ -4,8 +4,8 @@ use crate::mesh::TriMesh;
 use glam::DVec3;
 
 /// The same surface with vertices rising by coordinates (x, then y, then z), every face beginning with its lowest vertex, and
-/// faces rising. Unique if no two vertices share their coordinates; the winding stays.
-pub fn in_order(mesh: &TriMesh) -> TriMesh {
+/// faces rising, and the new number of every vertex. Unique if no two vertices share their coordinates; the winding stays.
+pub fn numbered(mesh: &TriMesh) -> (TriMesh, Vec<u32>) {
     // Adding 0 makes -0 and 0 one number.
     let place = |v: &DVec3| (*v + 0.0).to_array();
     let by_place = |a: &[f64; 3], b: &[f64; 3]| {
@@ -26,8 +26,6 @@ pub fn in_order(mesh: &TriMesh) -> TriMesh {
     };
     let mut faces: Vec<[u32; 3]> = mesh.faces.iter().map(lowest_first).collect();
     faces.sort_unstable();
-    TriMesh {
-        vertices: sorted.iter().map(|v| places[*v as usize].into()).collect(),
-        faces,
-    }
+    let vertices = sorted.iter().map(|v| places[*v as usize].into()).collect();
+    (TriMesh { vertices, faces }, number)
 }

@@ -125,28 +125,28 @@ pub fn drop_collapsed(mesh: &mut TriMesh) -> usize {
 
 /// Drops vertices that no face uses; gives how many.
 pub fn drop_unreferenced(mesh: &mut TriMesh) -> usize {
+    let kept = keep_referenced(mesh);
+    kept.iter().filter(|v| v.is_none()).count()
+}
+
+/// Drops vertices that no face uses; gives the new index of each old vertex that stays.
+pub fn keep_referenced(mesh: &mut TriMesh) -> Vec<Option<u32>> {
     let mut used = vec![false; mesh.vertices.len()];
     for v in mesh.faces.iter().flatten() {
         used[*v as usize] = true;
     }
-    let dropped = used.iter().filter(|u| !**u).count();
-    if dropped == 0 {
-        return 0;
-    }
     let mut next = 0;
-    let new_index: Vec<u32> = used
-        .iter()
-        .map(|u| {
-            next += u32::from(*u);
-            next.saturating_sub(1)
-        })
-        .collect();
+    let number = |used: &bool| {
+        next += u32::from(*used);
+        used.then(|| next - 1)
+    };
+    let new_index: Vec<Option<u32>> = used.iter().map(number).collect();
     let mut keep = used.iter();
     mesh.vertices.retain(|_| keep.next() == Some(&true));
     for face in &mut mesh.faces {
-        *face = face.map(|v| new_index[v as usize]);
+        *face = face.map(|v| new_index[v as usize].unwrap_or_default());
     }
-    dropped
+    new_index
 }
 
 /// Drops every face that has the same three vertices as an earlier one, whichever way round; gives how many.

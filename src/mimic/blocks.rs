@@ -59,6 +59,11 @@ pub fn blocks(program: &Program) -> Vec<Block> {
             ..row.clone()
         });
     }
+    for terms in &program.factor {
+        if let Some(b) = home(terms) {
+            made[b].program.factor.push(numbered(terms));
+        }
+    }
     let mut entries: Vec<sprs::TriMat<f64>> = made
         .iter()
         .map(|b| sprs::TriMat::new((b.variables.len(), b.variables.len())))
@@ -77,6 +82,7 @@ fn empty(program: &Program, variables: Vec<u32>) -> Block {
         program: Program {
             variables: variables.len(),
             quadratic: sprs::CsMat::zero((0, 0)),
+            factor: Vec::new(),
             linear: variables
                 .iter()
                 .map(|v| program.linear[*v as usize])

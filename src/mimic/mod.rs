@@ -10,8 +10,11 @@
 
 mod blocks;
 mod certificate;
+mod compress;
 mod conditions;
+mod conic;
 mod curvature;
+mod gradient;
 mod lazily;
 mod normal;
 mod ordering;
@@ -20,6 +23,7 @@ mod solve;
 
 pub use certificate::{Optimality, optimality};
 pub use conditions::Condition;
+pub use curvature::{Ending, Iterated, Round};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
 pub use solve::{Solution, SolveError, Solved, solve};
@@ -34,6 +38,21 @@ pub enum Energy {
     Normal(NormalOptions),
     /// The paper's curvature energy (Eq 9 and 13) on the whole mesh.
     Curvature(CurvatureOptions),
+    /// None: the model's depth mixed with that of the layer's middle (Cignoni et al. 1997; the baseline of the paper's Fig 10).
+    Linear,
+    /// None: gradients of depth attenuated and integrated anew (Weyrich et al. 2007; the paper's Fig 11), then as `Linear`.
+    Gradient(GradientOptions),
+}
+
+impl Energy {
+    /// Whether the depth order of the model's parts is kept on every ray, as a promise.
+    pub fn ordering(&self) -> bool {
+        match self {
+            Self::Normal(o) => o.ordering,
+            Self::Curvature(o) => o.ordering,
+            Self::Linear | Self::Gradient(_) => false,
+        }
+    }
 }
 
 /// How faces count in [`Energy::Normal`].
@@ -60,6 +79,40 @@ pub struct CurvatureOptions {
     /// Weight `w` of hidden vertices (paper Eq 13), visible ones count 1.
     pub hidden_weight: f64,
     pub ordering: bool,
+    /// With the term `lambda_i / lambda0_i` of Eq 7; without it (Fig 5) compressed parts are to have the model's Laplacians.
+    pub scale_invariant: bool,
+    /// Keep the division by the mean curvature `H0_i` (Eq 7) that Eq 9 cancels (Fig 7).
+    pub mean_curvature: bool,
+    /// Most rounds with the Laplacian of the deformed surface (Eq 6, Fig 6); only if scale invariant.
+    pub iterate: u32,
+    pub form: CurvatureForm,
+}
+
+impl CurvatureOptions {
+    /// As the paper's results are made: Eq 13 with the weights of Fig 9, orders of Eq 12.
+    pub const PAPER: Self = Self {
+        hidden_weight: 0.1,
+        ordering: true,
+        scale_invariant: true,
+        mean_curvature: false,
+        iterate: 0,
+        form: CurvatureForm::Quadratic,
+    };
+}
+
+/// In what form the curvature energy's program is solved; the optimum is the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurvatureForm {
+    /// As a quadratic program (Eq 14).
+    Quadratic,
+    /// With a second-order cone (appendix, Eq 17), which the paper's solver found faster.
+    Conic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GradientOptions {
+    /// `alpha` of Weyrich's attenuation `log(1 + alpha g) / alpha` of slopes `g`; 0 leaves them as they are.
+    pub compression: f64,
 }
 
 /// The optimised depths of one view.
@@ -70,6 +123,8 @@ pub struct Depths {
     /// Scale of every group; positive.
     pub mu: Vec<f64>,
     pub solved: Solved,
+    /// How an iteration of the Laplacian went, if there was one.
+    pub iterated: Option<Iterated>,
 }
 
 /// Finds the depths that minimise `energy` within the groups' bounds.
@@ -82,11 +137,7 @@ pub fn depths(
     map: &ViewMap,
     groups: &Groups,
 ) -> Result<Depths, SolveError> {
-    let ordered = match energy {
-        Energy::Normal(o) => o.ordering,
-        Energy::Curvature(o) => o.ordering,
-    };
-    let orders = if ordered {
+    let orders = if energy.ordering() {
         orders(target, map, groups)
     } else {
         Orders::default()
@@ -99,6 +150,11 @@ pub fn depths(
         Energy::Curvature(options) => {
             curvature::depths(options, target, map, groups, &conditions, rows)
         }
+        Energy::Linear => {
+            let shape = vec![1.0; target.mesh.vertices.len()];
+            compress::compressed(&shape, target, groups, compress::LINEAR)
+        }
+        Energy::Gradient(options) => gradient::depths(options, target, map, groups),
     }
 }
 
@@ -198,6 +254,9 @@ fn scales(
         let slot = &mut mu[bound.group as usize];
         *slot = slot.max(bound.anchor.relative_depth(s) / bound.upper);
     }
+    // A group of free vertices only has nothing to be scaled to.
+    let unbounded = mu.iter_mut().filter(|mu| **mu == f64::MIN_POSITIVE);
+    unbounded.for_each(|mu| *mu = 1.0);
     let tied = conditions.iter().filter_map(Condition::between_groups);
     tied.flatten().for_each(|g| mu[g as usize] = free(g));
     mu

@@ -61,18 +61,19 @@ pub fn depths(
         variables,
         linear: linear(opening, &index, unit, variables),
         quadratic: faces.energy(&index, variables, opening, &|_| 1.0),
+        factor: Vec::new(),
         equalities: Vec::new(),
         rows: first,
     };
+    // While conditions are checked the scales are the program's own: the closed form follows the worst bound, and then all others
+    // seem broken.
     let depths = |u: &[f64]| {
-        let s = index.relative_depths(u, unit);
-        let mu = if scaled {
-            let free = |g: u32| (u[index.scale(g)] * unit).exp();
-            scales(groups, conditions, &s, free)
-        } else {
-            vec![1.0; groups.groups.len()]
+        let scale = |g: usize| match scaled {
+            true => (u[index.scale(g as u32)] * unit).exp(),
+            false => 1.0,
         };
-        (s, mu)
+        let mu: Vec<f64> = (0..groups.groups.len()).map(scale).collect();
+        (index.relative_depths(u, unit), mu)
     };
     let meaning = Meaning {
         depths: &depths,
@@ -84,7 +85,11 @@ pub fn depths(
         program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
         (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
     }
-    let (s, mu) = depths(&u);
+    let (s, free) = depths(&u);
+    let mu = match scaled {
+        true => scales(groups, conditions, &s, |g| free[g as usize]),
+        false => free,
+    };
     let solved = Solved {
         gauge: if scaled {
             "free offsets are pulled to the model's depth"
@@ -93,7 +98,12 @@ pub fn depths(
         },
         ..solved
     };
-    Ok(Depths { s, mu, solved })
+    Ok(Depths {
+        s,
+        mu,
+        solved,
+        iterated: None,
+    })
 }
 
 /// The regulariser's pull to where the surface starts, and the forces on it.
@@ -231,7 +241,9 @@ impl Faces {
             };
             let turn = geometry.cotangents[f].map(|cot| h * h * cot / (2.0 * area));
             let factor = opening.map_or(1.0, |o| o.counts[f]);
-            (target.mesh.faces[f], turn, weight * factor)
+            // As in the paper's Eq 13 weights count squared.
+            let marked = target.face_weight(f).powi(2);
+            (target.mesh.faces[f], turn, weight * factor * marked)
         };
         let seen = (0..seen.len()).filter(|f| seen[*f] > 0.0);
         Self {

@@ -29,6 +29,8 @@ pub struct Program {
     pub variables: usize,
     /// Upper triangle of `P`, `variables` x `variables`, compressed columns.
     pub quadratic: CsMat<f64>,
+    /// Rows of a matrix `F` with `P = F'F`: if there are any, the program is solved in conic form (see `conic`).
+    pub factor: Vec<Vec<(usize, f64)>>,
     /// `q`.
     pub linear: Vec<f64>,
     /// Equalities `sum = value`.
@@ -39,31 +41,37 @@ pub struct Program {
 /// Gathers `P` term by term.
 pub struct Quadratic {
     triplets: TriMat<f64>,
+    factor: Vec<Vec<(usize, f64)>>,
 }
 
 impl Quadratic {
     pub fn new(variables: usize) -> Self {
         Self {
             triplets: TriMat::new((variables, variables)),
+            factor: Vec::new(),
         }
     }
 
-    /// Adds `weight * (u_i - u_j)^2`.
+    /// Adds `weight * (u_i - u_j)^2`; the weight may be negative, so that this has no part in a factor.
     pub fn difference(&mut self, i: usize, j: usize, weight: f64) {
-        self.square(i, weight);
-        self.square(j, weight);
+        self.triplets.add_triplet(i, i, 2.0 * weight);
+        self.triplets.add_triplet(j, j, 2.0 * weight);
         self.triplets.add_triplet(i.min(j), i.max(j), -2.0 * weight);
     }
 
     /// Adds `weight * u_i^2`.
     pub fn square(&mut self, i: usize, weight: f64) {
-        self.triplets.add_triplet(i, i, 2.0 * weight);
+        self.form(&[(i, 1.0)], weight);
     }
 
     /// Adds `weight * (sum of coefficient * u)^2`.
     pub fn form(&mut self, terms: &[(usize, f64)], weight: f64) {
+        let root = (2.0 * weight).sqrt();
+        self.factor.push(gathered(
+            terms.iter().map(|(i, a)| (*i, root * a)).collect(),
+        ));
         for (n, &(i, a)) in terms.iter().enumerate() {
-            self.square(i, weight * a * a);
+            self.triplets.add_triplet(i, i, 2.0 * weight * a * a);
             for &(j, b) in &terms[n + 1..] {
                 self.triplets
                     .add_triplet(i.min(j), i.max(j), 2.0 * weight * a * b);
@@ -74,6 +82,11 @@ impl Quadratic {
     /// The upper triangle.
     pub fn finish(self) -> CsMat<f64> {
         self.triplets.to_csc()
+    }
+
+    /// The upper triangle, and rows of an `F` with `P = F'F` if no differences were added.
+    pub fn finish_with_factor(self) -> (CsMat<f64>, Vec<Vec<(usize, f64)>>) {
+        (self.triplets.to_csc(), self.factor)
     }
 }
 

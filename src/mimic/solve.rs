@@ -2,16 +2,22 @@
 
 use super::blocks::{Block, blocks};
 use super::certificate::{Optimality, optimality};
+use super::conic::conic;
 use super::program::{Program, RowKind};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
-    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
+    SupportedConeT, ZeroConeT,
 };
 use rayon::prelude::*;
 use sprs::{CsMat, TriMat};
 
 /// More iterations than any program met so far needed (15-60).
 const MAX_ITERATIONS: u32 = 200;
+
+/// Gap and residuals at which the conic form ends. Its gap is that of `v`, half a squared length: at the solver's own 1e-8 unknowns have
+/// four digits, and the certificate refuses them.
+const CONIC_TOLERANCE: f64 = 1e-11;
 
 /// What was reached for a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +38,9 @@ pub struct Solved {
     pub broken: usize,
     /// What fixes the offsets that the energy leaves open.
     pub gauge: &'static str,
+    /// What the depths are if not the optimum of an energy within the bounds: then there is nothing to prove, and residuals say
+    /// nothing.
+    pub not_an_optimum: Option<&'static str>,
 }
 
 /// A solved program.
@@ -130,30 +139,81 @@ struct Part {
     iterations: u32,
 }
 
+/// A program as the solver takes it: `min x'Px / 2 + q'x`, `A x + slack = b`, slacks in cones.
+struct Standard {
+    p: CscMatrix<f64>,
+    q: Vec<f64>,
+    a: CscMatrix<f64>,
+    b: Vec<f64>,
+    cones: Vec<SupportedConeT<f64>>,
+    settings: DefaultSettings<f64>,
+}
+
+impl Standard {
+    fn new(program: &Program) -> Self {
+        let settings = DefaultSettings {
+            verbose: false,
+            max_iter: MAX_ITERATIONS,
+            max_threads: 1,
+            direct_solve_method: "faer".into(),
+            presolve_enable: false,
+            ..DefaultSettings::default()
+        };
+        if program.factor.is_empty() {
+            let (a, b) = constraints(program);
+            return Self {
+                p: csc(&program.quadratic),
+                q: program.linear.clone(),
+                a,
+                b,
+                cones: vec![
+                    ZeroConeT(program.equalities.len()),
+                    NonnegativeConeT(program.rows.len()),
+                ],
+                settings,
+            };
+        }
+        let form = conic(program);
+        let [equal, rows, cone] = form.parts;
+        Self {
+            p: CscMatrix::zeros((form.linear.len(), form.linear.len())),
+            q: form.linear,
+            a: csc(&form.lines.to_csc()),
+            b: form.limits,
+            cones: vec![
+                ZeroConeT(equal),
+                NonnegativeConeT(rows),
+                SecondOrderConeT(cone),
+            ],
+            settings: DefaultSettings {
+                tol_gap_abs: CONIC_TOLERANCE,
+                tol_gap_rel: CONIC_TOLERANCE,
+                tol_feas: CONIC_TOLERANCE,
+                ..settings
+            },
+        }
+    }
+}
+
 fn solve_block(block: &Block) -> Result<Part, SolveError> {
     let program = &block.program;
-    let p = csc(&program.quadratic);
-    let (a, b) = constraints(program);
-    let cones = [
-        ZeroConeT(program.equalities.len()),
-        NonnegativeConeT(program.rows.len()),
-    ];
-    let settings = DefaultSettings {
-        verbose: false,
-        max_iter: MAX_ITERATIONS,
-        max_threads: 1,
-        direct_solve_method: "faer".into(),
-        presolve_enable: false,
-        ..DefaultSettings::default()
-    };
-    let mut solver = DefaultSolver::new(&p, &program.linear, &a, &b, &cones, settings)
+    let Standard {
+        p,
+        q,
+        a,
+        b,
+        cones,
+        settings,
+    } = Standard::new(program);
+    let mut solver = DefaultSolver::new(&p, &q, &a, &b, &cones, settings)
         .map_err(|e| SolveError::Unsolved(e.to_string()))?;
     solver.solve();
     let solution = &solver.solution;
     let (y, z) = solution.z.split_at(program.equalities.len());
+    let z = &z[program.factor.len()..][..program.rows.len()];
     match solution.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(Part {
-            u: solution.x.clone(),
+            u: solution.x[..program.variables].to_vec(),
             z: z.to_vec(),
             y: y.to_vec(),
             iterations: solution.iterations,

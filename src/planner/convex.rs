@@ -1,32 +1,6 @@
 //! Convex regions in plan: hulls, the line that parts two of them best, half planes.
 
-use crate::geom::orient;
 use glam::DVec2;
-
-/// The convex hull, counter-clockwise, without points on its sides (Andrew's monotone chain).
-pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let half = |points: &mut dyn Iterator<Item = DVec2>| {
-        let mut chain: Vec<DVec2> = Vec::new();
-        for p in points {
-            while chain.len() > 1
-                && orient(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0
-            {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = half(&mut points.iter().copied());
-    lower.extend(half(&mut points.iter().rev().copied()));
-    lower
-}
 
 /// The line `normal . p = offset` in the middle of the widest strip between two convex polygons: the first lies on its lesser side.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,11 +10,12 @@
 //! what is in the way and by how much.
 
 use super::brief::{Brief, Pillar};
-use super::convex::{Parting, clipped, hull, part};
+use super::convex::{Parting, clipped, part};
 use super::moves::rounded;
 use super::skyline::Shadow;
 use super::subject::Subject;
 use super::survey::{Fault, Kind, Survey};
+use crate::geom::hull;
 use glam::DVec2;
 
 /// Steps in which a pillar is pushed away from its eye until it has room, millimetres.

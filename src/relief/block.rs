@@ -31,7 +31,8 @@ pub struct Block {
     pub dropped: Vec<u32>,
 }
 
-/// The solid over `cells` (rising indices) with corner depths `depth` (index: cell of the map) and a back at `back(q)`.
+/// The solid over `cells` (rising indices) with corner depths `depth` (index: cell of the map) and a back at `back(cell, q)`, which
+/// hardly differs between neighbouring cells at a point they share.
 /// `hidden(cell, side)` tells whether the support of the cell goes on behind that side, hidden by a nearer one: there the relief
 /// goes on by `lap_mm`. Reliefs of neighbouring pillars whose depths overlap would touch in a wall along the rays there; so they
 /// truly overlap, unseen. Below 0.01 mm mending could not tell overlap from contact.
@@ -39,7 +40,7 @@ pub fn block(
     map: &ViewMap,
     cells: &[u32],
     depth: &[Option<[f64; 3]>],
-    back: impl Fn(DVec2) -> f64,
+    back: impl Fn(u32, DVec2) -> f64,
     hidden: impl Fn(u32, usize) -> bool,
     lap_mm: f64,
 ) -> Block {
@@ -441,7 +442,7 @@ impl Field {
         false
     }
 
-    fn solid(&self, map: &ViewMap, back: impl Fn(DVec2) -> f64) -> TriMesh {
+    fn solid(&self, map: &ViewMap, back: impl Fn(u32, DVec2) -> f64) -> TriMesh {
         let mut mesh = TriMesh::default();
         let columns: Vec<Column> = (0..self.fans.len())
             .map(|f| self.column(map, f, &back, &mut mesh))
@@ -476,12 +477,22 @@ impl Field {
         mesh
     }
 
+    /// The middle one of what the cells around a point say: where two facets of a support meet, a thin cell may carry the wrong one.
+    fn back_at(&self, f: usize, q: DVec2, back: &impl Fn(u32, DVec2) -> f64) -> f64 {
+        let corners = self.fans[f].corners.iter();
+        let mut depths: Vec<f64> = corners
+            .map(|(c, _)| back(self.cells[*c as usize], q))
+            .collect();
+        depths.sort_by(f64::total_cmp);
+        depths[depths.len() / 2]
+    }
+
     /// Makes the vertices on one ray.
     fn column(
         &self,
         map: &ViewMap,
         f: usize,
-        back: &impl Fn(DVec2) -> f64,
+        back: &impl Fn(u32, DVec2) -> f64,
         mesh: &mut TriMesh,
     ) -> Column {
         let q = self.fans[f].q;
@@ -492,7 +503,7 @@ impl Field {
             mesh.vertices.push(map.plane.point(q, z));
             mesh.vertices.len() as u32 - 1
         };
-        let back = vertex(back(q));
+        let back = vertex(self.back_at(f, q, back));
         Column {
             levels: levels.into_iter().map(|z| (z, vertex(z))).collect(),
             back,

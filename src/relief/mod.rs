@@ -3,6 +3,8 @@
 //! Takes depths and groups. Gives, for every cell of the view map that carries a relief, the depth of its three corners:
 //! the model's face there, scaled by `s`, divided by the group's `mu` (never multiplied), clamped to the layer. Because
 //! `1/lambda` is affine over a cell, corners inside a flat layer keep the whole cell inside. The largest clamp is reported.
+//! Corners that a free vertex has a share in have no layer and stay where the optimum put them, even outside of what a solid
+//! over the support can hold.
 //! A height field over the view map cannot overlap itself as the eye sees it; `block` makes it a closed solid.
 
 mod block;
@@ -20,6 +22,8 @@ pub struct Relief {
     pub depth: Vec<Option<[f64; 3]>>,
     /// Largest distance a corner was moved along its ray to stay in its layer, millimetres: what linearised bounds left over.
     pub clamp_mm: f64,
+    /// Which corners have no layer; empty if no vertex of the target is free. Index: cell.
+    pub free: Vec<[bool; 3]>,
 }
 
 /// Cuts and scales back.
@@ -32,6 +36,12 @@ pub fn relief(
 ) -> Relief {
     let mut clamp_mm = 0.0f64;
     let mut depth = vec![None; map.cells.len()];
+    let marked = if target.free.is_empty() {
+        0
+    } else {
+        map.cells.len()
+    };
+    let mut no_layer = vec![[false; 3]; marked];
     for (c, cell) in map.cells.iter().enumerate() {
         let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
         else {
@@ -40,15 +50,23 @@ pub fn relief(
         let Some(slab) = groups.slabs[support as usize] else {
             continue;
         };
-        depth[c] = Some(cell.corners.map(|p| {
-            let q = map.points[p as usize];
+        depth[c] = Some([0, 1, 2].map(|k| {
+            let q = map.points[cell.corners[k] as usize];
             let (anchor, model_depth) = anchor(target, face as usize, q);
             let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
-            let (near, far) = layer_in(map, field, &slab, c, q);
+            if anchor.is_free(target) {
+                no_layer[c][k] = true;
+                return free;
+            }
+            let (near, far) = layer_in(map, field, &slab, c, k);
             let kept = free.clamp(near, far.max(near));
             clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
             kept
         }));
     }
-    Relief { depth, clamp_mm }
+    Relief {
+        depth,
+        clamp_mm,
+        free: no_layer,
+    }
 }

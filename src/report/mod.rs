@@ -13,6 +13,7 @@ use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
 use crate::diag::Diagnostic;
 use crate::mesh::Solid;
+use crate::mimic::Iterated;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
 use crate::view::View;
@@ -91,6 +92,9 @@ pub struct ViewReport {
     pub steps: Option<StepSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramReport>,
+    /// How the rounds with the deformed surface's Laplacian went, if there were any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iterated: Option<Iterated>,
     /// Share of the rays at the models that meet the forest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hit_share: Option<f64>,
@@ -121,10 +125,12 @@ pub struct CertificateReport {
     pub clamp_mm: f64,
     /// Places where a farther sheet of the model comes before a nearer one.
     pub order_inversions: usize,
-    /// Proof that the depths are the optimum of their program, measured on the result (see `mimic::optimality`).
-    pub duality_gap_rel: f64,
-    pub primal_residual: f64,
-    pub dual_residual: f64,
+    /// Proof that the depths are the optimum of their program; none where they are not meant to be one.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Proof>,
+    /// What the depths are instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_an_optimum: Option<&'static str>,
     /// Share of the models' solid angle at which the eye meets a support of its own.
     pub coverage: f64,
     /// The same without what rays found blocked or missing at the finished forest.
@@ -150,6 +156,23 @@ pub struct CertificateReport {
     /// How far the eye may move, and from where two eyes see one object.
     #[serde(flatten)]
     pub tolerance: Tolerance,
+}
+
+/// What proves an optimum, measured on the result (see `mimic::optimality`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Proof {
+    pub duality_gap_rel: f64,
+    pub primal_residual: f64,
+    pub dual_residual: f64,
+}
+
+impl Proof {
+    /// The largest of the three.
+    pub fn worst(&self) -> f64 {
+        (self.duality_gap_rel)
+            .max(self.primal_residual)
+            .max(self.dual_residual)
+    }
 }
 
 /// What of one model reaches the viewer.

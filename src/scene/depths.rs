@@ -1,10 +1,10 @@
 //! Depth layers: what the scene asks for, and what a pillar of some shape makes of it.
 
 use super::defaults;
-use super::raw::{RawDatum, RawDepth};
+use super::raw::{RawDatum, RawDepth, RawOutline};
 use super::reader::{Reader, Span, error_at, short};
 use super::shapes;
-use crate::support::{Datum, Layer};
+use crate::support::{Datum, Layer, SUNK_MM};
 use glam::DVec2;
 
 /// A depth layer as far as the scene gives it, millimetres.
@@ -12,10 +12,11 @@ use glam::DVec2;
 pub struct Wish {
     /// Where the scene asks for it.
     span: Option<Span>,
-    datum: Option<Datum>,
+    datum: Option<(Datum, &'static str)>,
     front: Option<f64>,
     back: Option<f64>,
     core: Option<f64>,
+    hull: Option<bool>,
 }
 
 impl Wish {
@@ -31,9 +32,13 @@ impl Wish {
 /// What `raw` asks for; fields left out are taken from `under`.
 pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> Wish {
     let datum = reader.given(&raw.from).map(|(from, _)| match from {
-        RawDatum::Axis => Datum::AxisPlane,
-        RawDatum::Surface => Datum::Surface,
+        RawDatum::Axis => (Datum::Plane, "Axis"),
+        RawDatum::Face => (Datum::Plane, "Face"),
+        RawDatum::Surface => (Datum::Surface, "Surface"),
     });
+    let hull = reader
+        .given(&raw.outline)
+        .map(|(outline, _)| *outline == RawOutline::OnSupport);
     let mut length = |field, name, under| {
         reader
             .length_from(field, name, 0.0)
@@ -63,6 +68,39 @@ pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> 
         front,
         back,
         core,
+        hull: hull.or(under.hull),
+    }
+}
+
+/// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the eyes.
+pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
+    let span = wish.span.as_ref().unwrap_or(entry);
+    let usual = match flat {
+        true => Datum::Plane,
+        false => Datum::Surface,
+    };
+    let known = |name: &str| name == "Surface" || (name == "Face" && flat);
+    if let Some((_, name)) = wish.datum.filter(|(_, name)| !known(name)) {
+        let (what, help) = match name {
+            "Axis" => (
+                "only pillars have an axis",
+                "leave `from` out, or write `from: Surface`",
+            ),
+            _ => (
+                "only plates and strips have one face",
+                "leave `from` out: the layer then follows the surface",
+            ),
+        };
+        reader
+            .problems
+            .push(error_at(span, format!("a layer from: {name} here: {what}")).help(help));
+    }
+    Layer {
+        datum: wish.datum.map_or(usual, |(datum, _)| datum),
+        front: wish.front.unwrap_or(defaults::ON_BODIES.front),
+        back: wish.back.unwrap_or(defaults::ON_BODIES.back).max(SUNK_MM),
+        core: wish.core.unwrap_or(defaults::ON_BODIES.core),
+        hull: wish.hull.unwrap_or(defaults::ON_BODIES.hull),
     }
 }
 
@@ -77,10 +115,16 @@ pub fn settled(
     let span = wish.span.as_ref().unwrap_or(entry);
     let reach = profile.iter().map(|p| p.length()).fold(0.0, f64::max);
     let width = shapes::narrowest(profile);
-    let datum = wish.datum.unwrap_or(defaults::LAYER.datum);
+    if wish.datum.is_some_and(|(_, name)| name == "Face") {
+        let text = "a layer from: Face here: pillars have no face";
+        reader
+            .problems
+            .push(error_at(span, text).help("write `from: Axis` or `from: Surface`"));
+    }
+    let datum = wish.datum.map_or(defaults::LAYER.datum, |(datum, _)| datum);
     let (room, of) = match (datum, round) {
-        (Datum::AxisPlane, true) => (reach, "the radius"),
-        (Datum::AxisPlane, false) => (width / 2.0, "half the width"),
+        (Datum::Plane, true) => (reach, "the radius"),
+        (Datum::Plane, false) => (width / 2.0, "half the width"),
         (Datum::Surface, _) => (width, "the width"),
     };
     let front = wish.front.unwrap_or(defaults::LAYER.front);
@@ -102,5 +146,6 @@ pub fn settled(
         front,
         back,
         core,
+        hull: wish.hull.unwrap_or(defaults::LAYER.hull),
     }
 }

@@ -2,18 +2,21 @@
 
 use super::auto::{self, as_written};
 use super::bases;
+use super::bodies;
 use super::checks::{self, Eye};
 use super::depths::{Wish, layer};
 use super::included::{Included, included};
 use super::raw::{RawAuto, RawForest, RawForestChoice, RawScene};
-use super::reader::{Reader, Span};
+use super::reader::{Reader, Span, error_at};
 use super::region::{self, Room};
 use super::resolve::{Purpose, ReadFile};
+use super::spanned::Field;
 use super::supports::{Entry, Supports, some_entries};
 use crate::diag::Place;
 use crate::planner::{Adjustment, Brief};
 use crate::scene::Printer;
 use crate::support::Support;
+use glam::DVec2;
 
 /// What of the scene the pillars depend on.
 pub struct Around<'a> {
@@ -35,6 +38,8 @@ pub struct Forest {
     room: Option<Room>,
     /// Where listed pillars come from, if not from the scene's own text.
     included: Option<Included>,
+    /// Supports that are no pillars.
+    bodies: Vec<Support>,
 }
 
 /// Reads pillars, base and depth layers.
@@ -43,11 +48,36 @@ pub fn forest(reader: &mut Reader, raw: &RawScene, whole: &Span, around: &Around
         Some((depth, span)) => layer(reader, depth, &span, &Wish::default()),
         None => Wish::default(),
     };
-    let mut forest = Forest::default();
+    let mut forest = Forest {
+        bodies: bodies::bodies(reader, &raw.supports, &depth, around.read),
+        ..Forest::default()
+    };
+    let others = matches!(raw.supports, Field::Given(_));
+    if others && matches!(raw.pillars, Field::Missing) {
+        // Bodies stand on a base only if there is one.
+        if matches!(raw.base, Field::Given(_)) {
+            let held: Vec<DVec2> = forest
+                .bodies
+                .iter()
+                .flat_map(Support::outline)
+                .copied()
+                .collect();
+            forest.supports.base = bases::base(reader, &raw.base, &held, None);
+        }
+        return forest;
+    }
     let Some((pillars, span)) = reader.required(&raw.pillars, "pillars", "the scene", whole) else {
         forest.supports.base = bases::base(reader, &raw.base, &[], None);
         return forest;
     };
+    let found = around.purpose == Purpose::Mend
+        || matches!(pillars, RawForest::Choice(c) if matches!(&c.value, Ok(RawForestChoice::Auto(_))));
+    if others && found {
+        let text = "layouts of pillars are found and mended without other `supports`: these are not looked at";
+        reader.problems.push(error_at(&span, text).help(
+            "list the pillars, or keep them in a layout file that was found without the supports",
+        ));
+    }
     let listed = match pillars {
         RawForest::List(list) => reader
             .value(list)
@@ -129,7 +159,7 @@ fn planned(
         supports,
         brief: Some(brief),
         room,
-        included: None,
+        ..Forest::default()
     }
 }
 
@@ -199,6 +229,8 @@ impl Forest {
 
     /// The solids, and what is to be done about them.
     pub fn finished(self) -> (Vec<Support>, Option<Brief>) {
-        (self.supports.solids(), self.brief)
+        let mut supports = self.supports.solids();
+        supports.extend(self.bodies);
+        (supports, self.brief)
     }
 }

@@ -102,7 +102,7 @@ fn head(scene: &Scene, planned: &Planned) -> String {
 fn entry(group: &Group) -> String {
     let layer = layer_as_written(group.shape.layer);
     let from = match layer.datum {
-        Datum::AxisPlane => "Axis",
+        Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     };
     let place = |s: &Spot| point(&s.at);
@@ -206,7 +206,7 @@ fn slab(support: &Support) -> Option<Slab> {
             thickness: -bottom,
             span: None,
         }),
-        SupportKind::Pillar { .. } => None,
+        SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,
     }
 }
 

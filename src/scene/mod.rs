@@ -3,16 +3,20 @@
 mod aims;
 mod auto;
 mod bases;
+mod bodies;
 mod checks;
 pub mod defaults;
 mod depths;
 mod document;
 mod explain;
 mod forest;
+mod forms;
+mod heights;
 mod included;
 mod laid;
 mod layout;
 mod lexer;
+mod marks;
 mod names;
 mod options;
 mod placing;
@@ -49,7 +53,7 @@ pub struct Scene {
     /// Title for people.
     pub title: String,
     pub views: Vec<View>,
-    /// Pillars first, the base (if any) last.
+    /// Pillars first, then the base (if any), then other bodies.
     pub supports: Vec<Support>,
     /// What is to be found besides these pillars, or mended among them: they are the ones it gives, in their order. `None`: the
     /// forest is complete.
@@ -91,6 +95,8 @@ pub struct Output {
     pub split: bool,
     /// The report as a page for people.
     pub report_html: bool,
+    /// The optimised surfaces, before they are cut and scaled back.
+    pub surface: bool,
     /// Side of one panel of a view picture, pixels.
     pub picture_size: u32,
     /// Width of plan.png, pixels.

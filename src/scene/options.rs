@@ -2,23 +2,22 @@
 
 use super::defaults;
 use super::raw::{
-    RawContested, RawEnergy, RawOutput, RawPrefer, RawPrinter, RawStepOptions, RawSteps, RawWeight,
+    RawContested, RawCurvature, RawCurvatureForm, RawEnergy, RawOutput, RawPrefer, RawPrinter,
+    RawStepOptions, RawSteps, RawWeight,
 };
 use super::reader::Reader;
 use super::spanned::Field;
 use crate::contest::Contested;
-use crate::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
+use crate::mimic::{
+    CurvatureForm, CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions,
+};
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 
 /// What is minimised, and how.
 pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
-    let default = match defaults::ENERGY {
-        Energy::Normal(_) => Energy::Normal(defaults::NORMAL),
-        Energy::Curvature(_) => Energy::Curvature(defaults::CURVATURE),
-    };
     match reader.given(field).map(|(energy, _)| energy) {
-        None => default,
+        None => defaults::ENERGY,
         Some(RawEnergy::Normal(raw)) => {
             let weight = match reader.given(&raw.weight) {
                 Some((RawWeight::Area, _)) => FaceWeight::Area,
@@ -33,21 +32,44 @@ pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
                     .map_or(defaults::NORMAL.reweight, |(v, _)| v),
             })
         }
-        Some(RawEnergy::Curvature(raw)) => {
-            let hidden_weight = reader.number(&raw.hidden_weight, "hidden_weight");
-            if let Some((value, span)) = hidden_weight
-                .as_ref()
-                .filter(|(v, _)| !(1e-6..=1.0).contains(v))
-            {
-                reader.error(span, format!("`hidden_weight` is {value}; visible vertices count 1, hidden ones from 0.000001 to 1"));
-            }
-            let hidden_weight = hidden_weight.map_or(defaults::CURVATURE.hidden_weight, |(v, _)| v);
-            let ordering = flag(reader, &raw.ordering, defaults::CURVATURE.ordering);
-            Energy::Curvature(CurvatureOptions {
-                hidden_weight,
-                ordering,
+        Some(RawEnergy::Curvature(raw)) => Energy::Curvature(curvature(reader, raw)),
+        Some(RawEnergy::Linear) => Energy::Linear,
+        Some(RawEnergy::Gradient(raw)) => {
+            let compression = reader.within(&raw.compression, "compression", defaults::COMPRESSION);
+            Energy::Gradient(GradientOptions {
+                compression: compression.map_or(defaults::GRADIENT.compression, |(v, _)| v),
             })
         }
+    }
+}
+
+fn curvature(reader: &mut Reader, raw: &RawCurvature) -> CurvatureOptions {
+    let under = defaults::CURVATURE;
+    let hidden_weight = reader.number(&raw.hidden_weight, "hidden_weight");
+    if let Some((value, span)) = hidden_weight
+        .as_ref()
+        .filter(|(v, _)| !(1e-6..=1.0).contains(v))
+    {
+        reader.error(span, format!("`hidden_weight` is {value}; visible vertices count 1, hidden ones from 0.000001 to 1"));
+    }
+    let scale_invariant = flag(reader, &raw.scale_invariant, under.scale_invariant);
+    let iterate = reader.count(&raw.iterate, "iterate", defaults::ITERATE);
+    let rounds = iterate.as_ref().filter(|(rounds, _)| *rounds > 0);
+    if let Some((_, span)) = rounds.filter(|_| !scale_invariant) {
+        reader.error(span, "`iterate` wants normals, whatever the scale: it goes with `scale_invariant: true` only");
+    }
+    let form = match reader.given(&raw.form) {
+        Some((RawCurvatureForm::Quadratic, _)) => CurvatureForm::Quadratic,
+        Some((RawCurvatureForm::Conic, _)) => CurvatureForm::Conic,
+        None => under.form,
+    };
+    CurvatureOptions {
+        hidden_weight: hidden_weight.map_or(under.hidden_weight, |(v, _)| v),
+        ordering: flag(reader, &raw.ordering, under.ordering),
+        scale_invariant,
+        mean_curvature: flag(reader, &raw.mean_curvature, under.mean_curvature),
+        iterate: iterate.map_or(under.iterate, |(v, _)| v),
+        form,
     }
 }
 
@@ -170,6 +192,7 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         camouflage: flag(reader, &raw.camouflage, under.camouflage),
         split: flag(reader, &raw.split, under.split),
         report_html: flag(reader, &raw.report_html, under.report_html),
+        surface: flag(reader, &raw.surface, under.surface),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }

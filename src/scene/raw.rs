@@ -37,6 +37,7 @@ raw! {
         models: List<RawModel>,
         views: List<RawView>,
         pillars: RawForest,
+        supports: List<RawSupport>,
         base: RawBase,
         depth: RawDepth,
         energy: RawEnergy,
@@ -49,7 +50,15 @@ raw! {
         file: String,
         units: RawUnit,
         place: RawPlace,
+        regions: List<RawModelRegion>,
     }
+    struct RawModelRegion, "a region `(shape: Box(from: (0, 0, 0), to: (10, 10, 10)), weight: 3)`" {
+        shape: RawVolume,
+        weight: f64,
+        free: bool,
+    }
+    struct RawBox, "`Box(from: (0, 0, 0), to: (10, 10, 10))`" { from: [f64; 3], to: [f64; 3], }
+    struct RawBall, "`Ball(centre: (0, 0, 0), radius: 10)`" { centre: [f64; 3], radius: f64, }
     struct RawFit, "`Fit(height: 60)`" {
         height: f64,
         width: f64,
@@ -106,6 +115,28 @@ raw! {
     struct RawAdjust, "an adjustment `(view: \"owl\", turn: 3, scale: 0.98, shift: (1, -2))`" {
         view: String, turn: f64, scale: f64, shift: [f64; 2],
     }
+    struct RawPlate, "`Plate(width: 120, height: 90)`" {
+        name: String, width: f64, height: f64, thickness: f64, at: [f64; 3], facing: [f64; 2], lean: f64, depth: RawDepth,
+    }
+    struct RawStrips, "`Strips(count: 5, width: 30, height: 90)`" {
+        name: String, count: u32, width: f64, height: f64, thickness: f64, gap: f64, turn: f64, at: [f64; 3], facing: [f64; 2],
+        depth: RawDepth,
+    }
+    struct RawStairs, "`Stairs(steps: 6, width: 120)`" {
+        name: String, steps: u32, width: f64, rise: f64, going: f64, at: [f64; 3], facing: [f64; 2], depth: RawDepth,
+    }
+    struct RawGroove, "`Groove(width: 100, height: 90, opening: 80, deep: 40)`" {
+        name: String, width: f64, height: f64, thickness: f64, opening: f64, deep: f64, at: [f64; 3], facing: [f64; 2], lean: f64,
+        depth: RawDepth,
+    }
+    struct RawWave, "`Wave(width: 120, height: 90, heights: Formula(\"3 * sin(x / 8)\"))`" {
+        name: String, width: f64, height: f64, thickness: f64, heights: RawHeights, pitch: f64, at: [f64; 3], facing: [f64; 2],
+        lean: f64, depth: RawDepth,
+    }
+    struct RawImage, "`Image(file: \"sea.png\", from: 0, to: 5)`" { file: String, from: f64, to: f64, }
+    struct RawBody, "`Mesh(file: \"vase.ply\")`" {
+        name: String, file: String, units: RawUnit, place: RawPlace, thickness: f64, creases: f64, depth: RawDepth,
+    }
     struct RawRound, "`Round(radius: 4)`" { radius: f64, facets: u32, }
     struct RawPolygon, "`Polygon(sides: 6, radius: 4)`" { sides: u32, radius: f64, turn: f64, }
     struct RawRectangle, "`Rectangle(width: 8, depth: 5)`" { width: f64, depth: f64, turn: f64, }
@@ -121,16 +152,21 @@ raw! {
     struct RawSlab, "`Rectangle(width: 150, depth: 100, thickness: 5)`" {
         width: f64, depth: f64, thickness: f64, margin: f64, centre: [f64; 2],
     }
-    struct RawDepth, "a depth layer `(front: 5, back: 2)`" { from: RawDatum, front: f64, back: f64, core: f64, }
+    struct RawDepth, "a depth layer `(front: 5, back: 2)`" {
+        from: RawDatum, front: f64, back: f64, core: f64, outline: RawOutline,
+    }
     struct RawNormal, "`Normal(steps: Never)`" { steps: RawSteps, weight: RawWeight, ordering: bool, reweight: u32, }
     struct RawStepOptions, "`Allowed(highest: 3)`" {
         least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
     }
-    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" { hidden_weight: f64, ordering: bool, }
+    struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" {
+        hidden_weight: f64, ordering: bool, scale_invariant: bool, mean_curvature: bool, iterate: u32, form: RawCurvatureForm,
+    }
+    struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
-        report_html: bool, picture_size: u32, plan_width: u32,
+        report_html: bool, surface: bool, picture_size: u32, plan_width: u32,
     }
 }
 
@@ -148,6 +184,15 @@ pub enum RawUnit {
 pub enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
+}
+
+/// Part of a model.
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per region, short-lived
+pub enum RawVolume {
+    Box(RawBox),
+    Ball(RawBall),
+    Painted(String),
 }
 
 /// The pillars of a scene: listed, to be found, or kept in a file of their own.
@@ -211,7 +256,33 @@ pub enum RawBase {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum RawDatum {
     Axis,
+    Face,
     Surface,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawOutline {
+    Free,
+    OnSupport,
+}
+
+/// What carries reliefs and is no pillar.
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // a few per scene
+pub enum RawSupport {
+    Plate(RawPlate),
+    Strips(RawStrips),
+    Stairs(RawStairs),
+    Groove(RawGroove),
+    Wave(RawWave),
+    Mesh(RawBody),
+}
+
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant)] // one per wave
+pub enum RawHeights {
+    Formula(String),
+    Image(RawImage),
 }
 
 #[derive(Debug, Deserialize)]
@@ -219,6 +290,14 @@ pub enum RawDatum {
 pub enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
+    Linear,
+    Gradient(RawGradient),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawCurvatureForm {
+    Quadratic,
+    Conic,
 }
 
 #[derive(Debug, Deserialize)]
@@ -288,6 +367,7 @@ wanted! {
     [f64; 4] => "a row of four numbers `(a, b, c, d)`";
     RawUnit => "mm, cm, m or inch";
     RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
+    RawVolume => "`Box(...)`, `Ball(...)` or `Painted(\"attribute\")`";
     RawForest => "a list `[...]`, `Auto(...)` or `File(\"layout.ron\")`";
     RawForestChoice => RawForest::WANTED;
     RawRegion => "`Disc(...)`, `Rectangle(...)` or `Polygon(...)`";
@@ -297,8 +377,12 @@ wanted! {
     RawShape => "`Round(...)`, `Polygon(...)`, `Rectangle(...)` or `Profile(...)`";
     RawPlaces => "`At([...])`, `Grid(...)`, `Ring(...)` or `Hex(...)`";
     RawBase => "`Disc(...)`, `Rectangle(...)` or `None`";
-    RawDatum => "Axis or Surface";
-    RawEnergy => "`Normal(...)` or `Curvature(...)`";
+    RawDatum => "Axis, Face or Surface";
+    RawOutline => "Free or OnSupport";
+    RawSupport => "`Plate(...)`, `Strips(...)`, `Stairs(...)`, `Groove(...)`, `Wave(...)` or `Mesh(...)`";
+    RawHeights => "`Formula(\"3 * sin(x / 8)\")` or `Image(file: \"sea.png\", from: 0, to: 5)`";
+    RawEnergy => "`Normal(...)`, `Curvature(...)`, `Linear` or `Gradient(...)`";
+    RawCurvatureForm => "Quadratic or Conic";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";
     RawContested => "First, Largest or Error";

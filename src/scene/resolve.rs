@@ -11,13 +11,14 @@ use super::placing::{self, Placing};
 use super::raw::{List, RawModel, RawScene, RawView};
 use super::reader::{Reader, Span, error_at, nearest, printable, short};
 use super::spanned::Field;
-use super::{defaults, lexer, names, options};
+use super::{defaults, lexer, marks, names, options};
 use crate::diag::{Diagnostic, Place, Severity, Warned};
-use crate::mesh::TriMesh;
+use crate::mesh::{Original, TriMesh};
 use crate::planner::Adjustment;
 use crate::scene::Scene;
-use crate::view::{PlacedModel, View};
+use crate::view::{Marks, PlacedModel, View};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Reads a file, a model or a layout, by the name the scene gives.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Diagnostic>;
@@ -31,7 +32,10 @@ struct Model {
     unit: f64,
     placing: Placing,
     span: Span,
+    regions: Vec<marks::Region>,
     mesh: Option<TriMesh>,
+    original: Option<Arc<Original>>,
+    marks: Arc<Marks>,
 }
 
 /// A view before its models are placed.
@@ -222,6 +226,7 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
         .given(&raw.units)
         .map_or(1.0, |(u, _)| placing::unit(*u).0);
     let placing = placing::placing(reader, &raw.place);
+    let regions = marks::regions(reader, &raw.regions);
     let ((name, name_span), (file, file_span), (placing, place_span)) = (name?, file?, placing?);
     Some(Model {
         name,
@@ -230,14 +235,17 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
         unit,
         placing,
         span: place_span.unwrap_or(name_span),
+        regions,
         mesh: None,
+        original: None,
+        marks: Arc::default(),
     })
 }
 
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
 fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
-    let parsed =
-        read(&model.file).and_then(|bytes| crate::formats::load_model(&model.file, &bytes, false));
+    let parsed = read(&model.file)
+        .and_then(|bytes| crate::formats::load_original(&model.file, &bytes, false));
     let at_name = |mut problem: Diagnostic, span: &Span| {
         problem.place.get_or_insert(Place::Scene(span.clone()));
         problem
@@ -251,7 +259,12 @@ fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
                     .into_iter()
                     .map(|w| at_name(w, &model.file_span)),
             );
-            model.mesh = Some(warned.value);
+            let loaded = warned.value;
+            let Model { name, file, .. } = &*model;
+            let marks = marks::marks(reader, &model.regions, &loaded, name, file);
+            model.marks = Arc::new(marks);
+            model.mesh = Some(loaded.mesh);
+            model.original = Some(Arc::new(loaded.original));
         }
     }
 }
@@ -433,6 +446,8 @@ fn view(reader: &mut Reader, draft: Draft, models: &[Model], adjusted: &Adjustme
             file: model.file.clone(),
             matrix,
             mesh,
+            original: model.original.clone(),
+            marks: model.marks.clone(),
         });
     }
     let look_at = draft

@@ -1,7 +1,7 @@
 //! The whole scene language on one page, for people; a test holds it against the types that read scenes.
 
 use super::defaults;
-use crate::mimic::{Energy, FaceWeight};
+use crate::mimic::{CurvatureForm, Energy, FaceWeight};
 use crate::support::Datum;
 use std::fmt::Write;
 
@@ -73,6 +73,7 @@ pub fn sections() -> Vec<Section> {
     [
         scene_sections(),
         pillar_sections(),
+        body_sections(),
         place_sections(),
         planning_sections(),
         other_sections(),
@@ -98,10 +99,11 @@ fn scene_sections() -> Vec<Section> {
             field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
             field("models", "[model, ...]", REQUIRED, "what is to be seen"),
             field("views", "[view, ...]", REQUIRED, "from where"),
-            field("pillars", "[pillars, ...] | Auto(...) | File(text)", REQUIRED, "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
-            field("base", "Disc(...) | Rectangle(...) | None", "Disc()", "what the pillars stand on"),
+            field("pillars", "[pillars, ...] | Auto(...) | File(text)", "required without `supports`", "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
+            field("supports", "[Plate(...) | Strips(...) | Stairs(...) | Groove(...) | Wave(...) | Mesh(...), ...]", "[]", "what else carries it"),
+            field("base", "Disc(...) | Rectangle(...) | None", "Disc(); None without pillars", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
-            field("energy", "Normal(...) | Curvature(...)", energy(), "what is optimised"),
+            field("energy", "Normal(...) | Curvature(...) | Linear | Gradient(...)", energy(), "what is optimised; Linear: nothing, depth is compressed linearly into the layer"),
             field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
             field("printer", "printer", "see printer", "what the checks have in mind"),
             field("output", "output", "see output", "which files are written"),
@@ -111,6 +113,20 @@ fn scene_sections() -> Vec<Section> {
             field("file", "text", REQUIRED, "OBJ, STL or PLY in the scene's folder or below, or by name in --models DIR"),
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
             field("place", "Fit(...) | Matrix(...)", "Fit()", "Matrix([(a, b, c, d), (..), (..), (..)]): 4 x 4 by rows, from file coordinates to mm"),
+            field("regions", "[region, ...]", "[]", "vertices that count more or less, or are free of the layer"),
+        ]),
+        section("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
+            field("shape", "Box(...) | Ball(...) | Painted(text)", REQUIRED, "Painted: by an attribute of the file, a PLY vertex property or red, green, blue of its colours: its values (0 to 1000) are weights, or more than 0.5 is inside if `free`"),
+            field("weight", "number", "1", "factor on the weight of its vertices, 0.001 to 1000; counts squared"),
+            field("free", "true | false", "false", "its vertices have no depth bounds; a view with such vertices has no steps"),
+        ]),
+        section("Box(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+            field("from", "(x, y, z)", REQUIRED, "a corner"),
+            field("to", "(x, y, z)", REQUIRED, "the opposite corner"),
+        ]),
+        section("Ball(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+            field("centre", "(x, y, z)", REQUIRED, "middle"),
+            field("radius", "number", REQUIRED, "in the unit of the file"),
         ]),
         section("Fit(...)", "Upright, turned to the eye, at one size: give height, width or largest, or none.", vec![
             field("height", "length", "as the file", "scaled to this height"),
@@ -162,10 +178,80 @@ fn pillar_sections() -> Vec<Section> {
             field("turn", "degrees", "0", "about the axis"),
         ]),
         section("depth", "The room of the reliefs.", vec![
-            field("from", "Axis | Surface", datum(), "measured from the upright plane through the axis that faces the eye, or from the surface"),
+            field("from", "Axis | Face | Surface", format!("{}; Face on plates and strips, Surface on other supports", datum()), "measured from the upright plane through a pillar's axis that faces the eye, square to a plate's face, or along the rays from the surface"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
-            field("back", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.back, defaults::BACK_SHARE), "away from the eye"),
-            field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the pillar behind it"),
+            field("back", "length", format!("{} mm, at most {} of the room behind; {} mm where there are no pillars", defaults::LAYER.back, defaults::BACK_SHARE, defaults::ON_BODIES.back), "away from the eye: reliefs are carved in"),
+            field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the support behind it"),
+            field("outline", "Free | OnSupport", "Free", "whether the outline of every object must lie on the datum, to 0.05 mm"),
+        ]),
+    ]
+}
+
+#[rustfmt::skip] // a table
+fn body_sections() -> Vec<Section> {
+    let thick = format!("{} mm", defaults::BODY_THICKNESS);
+    let name = |usual: &str| field("name", "text", format!("{usual:?}"), "numbered where several have it");
+    let at = || field("at", "(x, y, z)", "(0, 0, 0)", "middle of the lower edge of its face");
+    let facing = || field("facing", "(x, y)", "(0, -1)", "where the face looks, along the ground");
+    let lean = || field("lean", "degrees", "0", "backwards: at 90 it lies on its back");
+    let depth = || field("depth", "depth", "the scene's", "fields given here replace the scene's");
+    vec![
+        section("Plate(...)", "A box with a flat face: the layer is square to it.", vec![
+            name("plate"),
+            field("width", "length", REQUIRED, "of the face"),
+            field("height", "length", REQUIRED, "of the face"),
+            field("thickness", "length", &thick, "behind the face"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Strips(...)", "Upright plates side by side.", vec![
+            name("strip"),
+            field("count", "count", REQUIRED, "of plates, up to 100"),
+            field("width", "length", REQUIRED, "of one"),
+            field("height", "length", REQUIRED, "of all"),
+            field("thickness", "length", &thick, "behind the faces"),
+            field("gap", "length", format!("{} mm", defaults::STRIP_GAP), "between neighbours"),
+            field("turn", "degrees", "0", "of each against its left neighbour: more than 0 folds the row back at its ends"),
+            at(), facing(), depth(),
+        ]),
+        section("Stairs(...)", "Steps that go up away from the viewer; every riser and tread carries pieces of its own.", vec![
+            name("stairs"),
+            field("steps", "count", REQUIRED, "up to 200"),
+            field("width", "length", REQUIRED, "of the steps"),
+            field("rise", "length", format!("{} mm", defaults::STEP[0]), "height of one"),
+            field("going", "length", format!("{} mm", defaults::STEP[1]), "depth of one"),
+            at(), facing(), depth(),
+        ]),
+        section("Groove(...)", "A block with a V-shaped groove from bottom to top.", vec![
+            name("groove"),
+            field("width", "length", REQUIRED, "of the block"),
+            field("height", "length", REQUIRED, "of the block"),
+            field("thickness", "length", format!("`deep` + {} mm", defaults::BODY_THICKNESS), "of the block"),
+            field("opening", "length", REQUIRED, "width of the groove at the face"),
+            field("deep", "length", REQUIRED, "depth of the groove in the middle"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Wave(...)", "A block whose face is any height field.", vec![
+            name("wave"),
+            field("width", "length", REQUIRED, "of the face"),
+            field("height", "length", REQUIRED, "of the face"),
+            field("thickness", "length", format!("{} mm", 2.0 * defaults::BODY_THICKNESS), "behind height 0"),
+            field("heights", "Formula(text) | Image(...)", REQUIRED, "in mm out of the face: of x (0 in the middle) and y (0 below) in mm, as Formula(\"3 * sin(x / 8)\")"),
+            field("pitch", "length", format!("{} mm", defaults::WAVE_PITCH), "largest distance of its points"),
+            at(), facing(), lean(), depth(),
+        ]),
+        section("Image(...)", "Heights from a PNG stretched over the face.", vec![
+            field("file", "text", REQUIRED, "in the scene's folder or below"),
+            field("from", "length", "0 mm", "height of black"),
+            field("to", "length", REQUIRED, "height of white"),
+        ]),
+        section("Mesh(...)", "Any mesh: closed, or with a border and a thickness.", vec![
+            name("mesh"),
+            field("file", "text", REQUIRED, "as a model's"),
+            field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
+            field("place", "Fit(...) | Matrix(...)", "Fit()", "as a model's, but it looks along -y unless `facing` says otherwise"),
+            field("thickness", "length", "for meshes with a border", "goes on behind them, square to their mean direction"),
+            field("creases", "degrees", "none", "sharper edges part the surface: each part carries pieces of its own"),
+            depth(),
         ]),
     ]
 }
@@ -292,6 +378,13 @@ fn other_sections() -> Vec<Section> {
         section("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
+            field("scale_invariant", "true | false", defaults::CURVATURE.scale_invariant, "parts may change their scale; false: the paper's Eq 7 without its last factor"),
+            field("mean_curvature", "true | false", defaults::CURVATURE.mean_curvature, "keep the division by the mean curvature (Eq 7), so that flat parts count as much as curved ones"),
+            field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
+            field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),
+        ]),
+        section("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
+            field("compression", "number", defaults::GRADIENT.compression, "alpha of log(1 + alpha g) / alpha, 0 to 1000: more evens out steep and gentle slopes; 0 is Linear without silhouettes"),
         ]),
         section("printer", "Used by warnings, print checks and `build --split`.", vec![
             field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
@@ -308,6 +401,7 @@ fn other_sections() -> Vec<Section> {
             field("camouflage", "true | false", output.camouflage, "how like its model the forest is from elsewhere: camouflage.png and .svg, and figures in report.json"),
             field("split", "true | false", output.split, "plates, pillars one by one and layout.svg, as `build --split`"),
             field("report_html", "true | false", output.report_html, "report.html, the report with all pictures as one page for people"),
+            field("surface", "true | false", output.surface, "surface-<view>.ply and .obj: the optimised surface before it is cut and scaled back"),
             field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
             field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
         ]),
@@ -318,12 +412,21 @@ fn energy() -> &'static str {
     match defaults::ENERGY {
         Energy::Normal(_) => "Normal()",
         Energy::Curvature(_) => "Curvature()",
+        Energy::Linear => "Linear",
+        Energy::Gradient(_) => "Gradient()",
+    }
+}
+
+fn form() -> &'static str {
+    match defaults::CURVATURE.form {
+        CurvatureForm::Quadratic => "Quadratic",
+        CurvatureForm::Conic => "Conic",
     }
 }
 
 fn datum() -> &'static str {
     match defaults::LAYER.datum {
-        Datum::AxisPlane => "Axis",
+        Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     }
 }
@@ -358,9 +461,19 @@ mod tests {
         let types = [
             ("scene", fields_of::<raw::RawScene>()),
             ("model", fields_of::<raw::RawModel>()),
+            ("region", fields_of::<raw::RawModelRegion>()),
+            ("Box(...)", fields_of::<raw::RawBox>()),
+            ("Ball(...)", fields_of::<raw::RawBall>()),
             ("Fit(...)", fields_of::<raw::RawFit>()),
             ("view", fields_of::<raw::RawView>()),
             ("pillars", fields_of::<raw::RawPillars>()),
+            ("Plate(...)", fields_of::<raw::RawPlate>()),
+            ("Strips(...)", fields_of::<raw::RawStrips>()),
+            ("Stairs(...)", fields_of::<raw::RawStairs>()),
+            ("Groove(...)", fields_of::<raw::RawGroove>()),
+            ("Wave(...)", fields_of::<raw::RawWave>()),
+            ("Image(...)", fields_of::<raw::RawImage>()),
+            ("Mesh(...)", fields_of::<raw::RawBody>()),
             ("Round(...)", fields_of::<raw::RawRound>()),
             ("Polygon(...)", fields_of::<raw::RawPolygon>()),
             (
@@ -391,6 +504,7 @@ mod tests {
             ("Normal(...)", fields_of::<raw::RawNormal>()),
             ("Allowed(...)", fields_of::<raw::RawStepOptions>()),
             ("Curvature(...)", fields_of::<raw::RawCurvature>()),
+            ("Gradient(...)", fields_of::<raw::RawGradient>()),
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),
         ];

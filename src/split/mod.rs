@@ -106,6 +106,8 @@ pub struct Socket {
 pub enum SplitError {
     #[error("the base is {0} mm thick: sockets need at least {THINNEST_BASE_MM} mm")]
     ThinBase(f64),
+    #[error("only forests of pillars are cut into pieces, and \"{0}\" is no pillar")]
+    Body(String),
     #[error("the printer's bed is too small to cut the base into plates for it")]
     SmallBed,
     #[error(transparent)]
@@ -134,8 +136,11 @@ pub fn split(
             bottom,
             top,
         } => Some((outline, top - bottom)),
-        SupportKind::Pillar { .. } => None,
+        SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,
     });
+    if let Some(body) = supports.iter().find(|s| s.is_body()) {
+        return Err(SplitError::Body(body.name.clone()));
+    }
     let depth = match base {
         Some((_, t)) if t < THINNEST_BASE_MM => return Err(SplitError::ThinBase(t)),
         // A multiple of a power of two: pegs keep their digits.
@@ -211,7 +216,7 @@ fn pillar(
     let members = || group.iter().map(|k| numbered[*k]);
     let axis = members().find_map(|s| match supports[s].kind {
         SupportKind::Pillar { axis, .. } => Some(axis),
-        SupportKind::Base { .. } => None,
+        SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     });
     let lowest = members()
         .map(|s| standing[s].bounds().0.z)

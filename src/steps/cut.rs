@@ -27,6 +27,8 @@ const SHARED: f64 = 1e-3;
 pub struct Cut {
     pub target: Target,
     pub map: ViewMap,
+    /// The target's vertex at every vertex of the cut mesh.
+    pub vertices: Vec<u32>,
     /// Vertices of the cut mesh at every patch's corners.
     pub corners: Vec<[u32; 3]>,
     /// The depth order of sheets that meet along contours, at every corner there.
@@ -77,6 +79,7 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
         map,
         orders: orders(patches, &corners),
         ties: ties(patches, &corners, &start, CLOSED * least_mm / patches.depth),
+        vertices,
         corners,
         start,
         steps,

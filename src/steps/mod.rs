@@ -108,6 +108,9 @@ pub struct Torn {
     pub map: ViewMap,
     pub groups: Groups,
     pub depths: Depths,
+    /// The uncut target's vertex at every vertex, and its face at every face.
+    pub vertices: Vec<u32>,
+    pub faces: Vec<u32>,
     pub lines: Vec<StepLine>,
     pub summary: StepSummary,
 }
@@ -166,6 +169,8 @@ pub fn torn(
             },
             target: cut.target,
             map: cut.map,
+            vertices: cut.vertices,
+            faces: patches.patches.iter().map(|p| p.face).collect(),
             groups,
             depths,
         });

@@ -125,7 +125,8 @@ impl Patches {
         for p in &mut patches {
             p.highest = highest(limits, target, p);
             p.seen_mm2 *= depth * depth;
-            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, p.seen_mm2);
+            let counted = p.seen_mm2 * target.face_weight(p.face as usize).powi(2);
+            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, counted);
         }
         let mut widths: Vec<f64> = patches
             .iter()
@@ -260,9 +261,9 @@ fn add_cell(
     let support = groups.groups[patch.group as usize].support;
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
-    for q in map.triangle(c) {
+    for (k, q) in map.triangle(c).into_iter().enumerate() {
         let (anchor, z) = anchor(target, patch.face as usize, q);
-        let (near, far) = layer_in(map, field, &slab, c, q);
+        let (near, far) = layer_in(map, field, &slab, c, k);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
         patch.points.push(PatchPoint {

@@ -139,6 +139,7 @@ fn triangulate(
                 support: None,
                 facet: None,
                 support_depth: f64::INFINITY,
+                outline: [false; 3],
             })
             .collect(),
     ))

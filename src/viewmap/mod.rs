@@ -17,8 +17,9 @@ mod tidy;
 
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
-use crate::mesh::{DisjointSets, Edges, TriMesh};
+use crate::mesh::{DisjointSets, Edges, TriMesh, face_components};
 use crate::support::{Datum, Support, SupportKind};
+use crate::view::Marks;
 use glam::{DVec2, DVec3};
 
 /// Cells thinner than this, in millimetres at the model's mean distance, are merged away: below it, f32 coordinates and
@@ -41,6 +42,8 @@ pub struct Cell {
     pub facet: Option<u32>,
     /// Depth along the forward axis at which the cell's centre meets it; infinite without.
     pub support_depth: f64,
+    /// Which corners lie on the outline of the face's component, as the eye sees it.
+    pub outline: [bool; 3],
 }
 
 /// See the module.
@@ -93,15 +96,18 @@ impl ViewMap {
 pub struct SupportField<'a> {
     pub supports: &'a [Support],
     mesh: TriMesh,
+    /// Support of every face, and first face of every support.
     owner: Vec<u32>,
+    first: Vec<u32>,
     bvh: Bvh,
 }
 
 impl<'a> SupportField<'a> {
     pub fn new(supports: &'a [Support]) -> Self {
         let mut mesh = TriMesh::default();
-        let mut owner = Vec::new();
+        let (mut owner, mut first) = (Vec::new(), Vec::new());
         for (i, support) in supports.iter().enumerate() {
+            first.push(mesh.faces.len() as u32);
             mesh.append(&support.mesh);
             owner.resize(mesh.faces.len(), i as u32);
         }
@@ -110,6 +116,7 @@ impl<'a> SupportField<'a> {
             supports,
             mesh,
             owner,
+            first,
             bvh,
         }
     }
@@ -128,6 +135,29 @@ impl<'a> SupportField<'a> {
         normal.dot(corner - origin) / normal.dot(direction)
     }
 
+    /// As [`Self::first_hit`], of one support, whatever stands before it.
+    pub fn hit_of(&self, support: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
+        let own = |face: usize| self.owner[face] == support;
+        let hit = self.bvh.first_hit_where(origin, direction, own);
+        hit.map(|h| h.t)
+    }
+
+    /// How thick a support is behind where a ray first meets it, in units of the ray's direction; infinite if it never leaves it.
+    pub fn thickness(&self, support: u32, origin: DVec3, direction: DVec3) -> f64 {
+        let hits = self.bvh.all_hits(origin, direction);
+        let mut own = hits.iter().filter(|h| self.owner[h.face] == support);
+        let first = own.next().map_or(0.0, |h| h.t);
+        let leaves = |face: usize| self.mesh.area_vector(face).dot(direction) > 0.0;
+        own.find(|h| leaves(h.face))
+            .map_or(f64::INFINITY, |h| h.t - first)
+    }
+
+    /// The part of its support that a face of the supports' mesh belongs to.
+    pub fn part(&self, facet: u32) -> u32 {
+        let support = self.owner[facet as usize];
+        self.supports[support as usize].part((facet - self.first[support as usize]) as usize)
+    }
+
     /// Whether the layer of the support that a face belongs to follows its surface.
     fn is_shell(&self, facet: u32) -> bool {
         let layer = self.supports[self.owner[facet as usize] as usize].layer;
@@ -138,7 +168,7 @@ impl<'a> SupportField<'a> {
     fn base_top(&self) -> Option<f64> {
         self.supports.iter().find_map(|s| match s.kind {
             SupportKind::Base { top, .. } => Some(top),
-            SupportKind::Pillar { .. } => None,
+            SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,
         })
     }
 }
@@ -151,6 +181,10 @@ pub struct Target {
     pub image: Vec<DVec2>,
     /// Depth of every vertex along the plane's forward axis.
     pub depth: Vec<f64>,
+    /// Factor on every vertex's weight `w` (paper Eq 13); empty: 1 everywhere.
+    pub weights: Vec<f64>,
+    /// Which vertices have no depth bounds; empty: none.
+    pub free: Vec<bool>,
     /// Whether every edge has two faces: then only faces turned to the eye can be seen.
     closed: bool,
 }
@@ -170,8 +204,38 @@ impl Target {
             mesh,
             image,
             depth,
+            weights: Vec::new(),
+            free: Vec::new(),
             closed,
         })
+    }
+
+    /// The same target with what a scene says of its vertices.
+    pub fn marked(self, marks: Marks) -> Self {
+        Self {
+            weights: marks.weights,
+            free: marks.free,
+            ..self
+        }
+    }
+
+    /// Factor on the weight of a vertex.
+    pub fn weight(&self, vertex: u32) -> f64 {
+        self.weights.get(vertex as usize).copied().unwrap_or(1.0)
+    }
+
+    /// Factor on the weight of a face: the mean of its vertices'.
+    pub fn face_weight(&self, face: usize) -> f64 {
+        if self.weights.is_empty() {
+            return 1.0;
+        }
+        let corners = self.mesh.faces[face].map(|v| self.weight(v));
+        corners.iter().sum::<f64>() / 3.0
+    }
+
+    /// Whether a vertex has no depth bounds.
+    pub fn is_free(&self, vertex: u32) -> bool {
+        self.free.get(vertex as usize) == Some(&true)
     }
 
     /// The same surface as another mesh: `mesh` has a vertex at each of `vertices` of this one.
@@ -181,6 +245,8 @@ impl Target {
             mesh,
             image: vertices.iter().map(|v| self.image[*v as usize]).collect(),
             depth: vertices.iter().map(|v| self.depth[*v as usize]).collect(),
+            weights: picked(&self.weights, vertices),
+            free: picked(&self.free, vertices),
             closed: false,
         }
     }
@@ -195,6 +261,14 @@ impl Target {
         let turn = orient(a, b, c);
         turn > 0.0 || (turn < 0.0 && !self.closed)
     }
+}
+
+/// Entries of a list that is empty or has one for every vertex.
+fn picked<T: Copy>(list: &[T], vertices: &[u32]) -> Vec<T> {
+    if list.is_empty() {
+        return Vec::new();
+    }
+    vertices.iter().map(|v| list[*v as usize]).collect()
 }
 
 /// Why no view map could be made.
@@ -233,7 +307,31 @@ pub fn view_map(
     }
     map.doubtful_sr = doubtful.iter().map(|c| map.solid_angle(*c)).sum();
     tidy::tidy(&mut map, TIDY_MM / mean(&target.depth));
+    mark_outlines(&mut map, &face_components(&target.mesh));
     Ok(map)
+}
+
+/// Marks the corners of cells that lie on sides where the image of their component ends.
+fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
+    let of = |cell: &Cell| cell.face.map(|f| component[f as usize]);
+    let mut marked: Vec<(u32, u32)> = Vec::new();
+    for (cell, across) in map.cells.iter().zip(&map.neighbours) {
+        let Some(own) = of(cell) else { continue };
+        for (k, next) in across.iter().enumerate() {
+            let beyond = next.and_then(|n| of(&map.cells[n as usize]));
+            if beyond != Some(own) {
+                marked.extend([k, (k + 1) % 3].map(|k| (cell.corners[k], own)));
+            }
+        }
+    }
+    marked.sort_unstable();
+    for cell in &mut map.cells {
+        if let Some(own) = of(cell) {
+            cell.outline = cell
+                .corners
+                .map(|p| marked.binary_search(&(p, own)).is_ok());
+        }
+    }
 }
 
 /// The rectangle around the model's image, a little widened: the part of the image that is mapped.

@@ -68,11 +68,12 @@ fn silhouette(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
         .collect()
 }
 
-/// Whether a layer follows the surface round this edge, and its faces are not one plane.
+/// Whether a layer follows the surface round this edge, and its faces are not one plane; or whether parts meet there.
 fn is_bent(field: &SupportField, sides: &[HalfEdge]) -> bool {
     let normal = |h: &HalfEdge| field.mesh.normal(h.face as usize);
     let apart = |h: &HalfEdge| normal(h).distance(normal(&sides[0])) > PLANE;
-    field.is_shell(sides[0].face) && sides.iter().any(apart)
+    let parted = |h: &HalfEdge| field.part(h.face) != field.part(sides[0].face);
+    (field.is_shell(sides[0].face) && sides.iter().any(apart)) || sides.iter().any(parted)
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.

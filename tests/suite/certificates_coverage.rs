@@ -221,14 +221,15 @@ fn frusta_that_touch_do_not_meet() {
 
 /// View "b" looks along -x at a thin pillar beside the sight of view "a"; its layer stands out into that sight, up to x = -3.
 fn crossing() -> Vec<Support> {
-    let mut thin = pillar(DVec2::new(-9.0, -60.0), 1.5, 48, Datum::AxisPlane);
+    let mut thin = pillar(DVec2::new(-9.0, -60.0), 1.5, 48, Datum::Plane);
     thin.layer = Some(Layer {
-        datum: Datum::AxisPlane,
+        datum: Datum::Plane,
         front: 6.0,
         back: 0.5,
         core: 0.2,
+        hull: false,
     });
-    vec![pillar(DVec2::ZERO, 14.0, 96, Datum::AxisPlane), thin]
+    vec![pillar(DVec2::ZERO, 14.0, 96, Datum::Plane), thin]
 }
 
 #[test]
@@ -297,7 +298,7 @@ fn sharing<'a>(field: &'a SupportField<'a>, heights: [f64; 2]) -> [Sight; 2] {
 
 #[test]
 fn views_at_different_heights_of_one_pillar_do_not_meet() {
-    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
     let field = SupportField::new(&supports);
     let settlement = settled(&sharing(&field, [33.0, 15.0]), &field, Contested::First);
     assert_eq!(settlement.contests, [vec![], vec![]]);
@@ -305,7 +306,7 @@ fn views_at_different_heights_of_one_pillar_do_not_meet() {
 
 #[test]
 fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
-    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
     let field = SupportField::new(&supports);
     for (rule, loser) in [(Contested::First, 1), (Contested::Largest, 0)] {
         let mut sights = sharing(&field, [20.0, 20.0]);
@@ -378,7 +379,7 @@ fn opposite_reliefs_on_the_faces_of_one_plate_do_not_meet() {
 
 #[test]
 fn a_pillar_that_is_too_short_is_named_with_what_it_lacks() {
-    let supports = [pillar(DVec2::ZERO, 5.0, 192, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 5.0, 192, Datum::Plane)];
     let field = SupportField::new(&supports);
     // A strip 4 mm wide and 25 mm nearer than the axis, whose image ends above the pillar.
     let strip = [(-2.0, -25.0), (2.0, -25.0), (2.0, -24.0), (-2.0, -24.0)];
@@ -425,7 +426,7 @@ fn a_pillar_that_is_too_short_is_named_with_what_it_lacks() {
 #[test]
 fn gaps_beside_a_pillar_and_before_the_base_have_their_causes() {
     let supports = [
-        pillar(DVec2::ZERO, 5.0, 64, Datum::AxisPlane),
+        pillar(DVec2::ZERO, 5.0, 64, Datum::Plane),
         base(ring(DVec2::ZERO, 60.0, 96)),
     ];
     let field = SupportField::new(&supports);
@@ -483,7 +484,7 @@ impl<'a> Built<'a> {
                 relief,
             })
             .collect();
-        let forest = carve(field.supports, &views).expect("a forest");
+        let forest = carve(field, &views).expect("a forest");
         Self {
             field,
             sights,
@@ -510,7 +511,7 @@ impl<'a> Built<'a> {
 #[test]
 fn rays_find_a_finished_forest_free_and_a_box_before_it() {
     let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
-    let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::AxisPlane));
+    let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::Plane));
     let field = SupportField::new(&supports);
     let built = Built::new(&field, vec![Sight::new("a", EYE, bumpy(12.0), &field)]);
     let free = built.sighted(&built.forest, 0);
@@ -555,7 +556,7 @@ fn rays_find_a_finished_forest_free_and_a_box_before_it() {
 
 #[test]
 fn rays_miss_a_relief_that_is_not_there() {
-    let supports = [pillar(DVec2::ZERO, 14.0, 96, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 14.0, 96, Datum::Plane)];
     let field = SupportField::new(&supports);
     let built = Built::new(&field, vec![Sight::new("a", EYE, bumpy(9.0), &field)]);
     let far = prism(&ring(DVec2::new(0.0, 40.0), 3.0, 24), 0.0, 40.0);
@@ -577,7 +578,7 @@ fn rays_miss_a_relief_that_is_not_there() {
 
 #[test]
 fn after_settling_the_finished_forest_is_free_for_both() {
-    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
     let field = SupportField::new(&supports);
     let mut sights = sharing(&field, [22.0, 16.0]);
     let settlement = settled(&sights, &field, Contested::First);
@@ -596,7 +597,7 @@ fn after_settling_the_finished_forest_is_free_for_both() {
 
 #[test]
 fn models_of_one_view_are_counted_apart() {
-    let supports = [pillar(DVec2::new(-8.0, 0.0), 7.0, 64, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::new(-8.0, 0.0), 7.0, 64, Datum::Plane)];
     let field = SupportField::new(&supports);
     let mut sight = Sight::new("a", EYE, ball(DVec3::new(-8.0, 0.0, 20.0), 4.0, 12), &field);
     let other = view("c", EYE, ball(DVec3::new(8.0, 0.0, 20.0), 4.0, 12), BLUE);

@@ -180,7 +180,7 @@ pub fn allowed(
     let distance = way.length();
     let speed = direction.truncate().dot(way / distance);
     Some(match layer.datum {
-        Datum::AxisPlane => (
+        Datum::Plane => (
             (distance - layer.front) / speed,
             (distance + layer.back) / speed,
         ),

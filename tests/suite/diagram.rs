@@ -26,7 +26,7 @@ fn plate_view() -> View {
 
 /// A pillar with a square profile between two corners.
 fn block(lo: DVec2, hi: DVec2) -> Support {
-    let mut support = pillar((lo + hi) / 2.0, 1.0, 4, Datum::AxisPlane);
+    let mut support = pillar((lo + hi) / 2.0, 1.0, 4, Datum::Plane);
     if let SupportKind::Pillar { profile, .. } = &mut support.kind {
         *profile = vec![lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
     }
@@ -68,7 +68,7 @@ fn what_stands_behind_is_not_seen() {
 
 #[test]
 fn the_room_of_a_relief_lies_between_its_front_and_back_planes() {
-    let supports = [pillar(DVec2::new(60.0, 1.0), 4.0, 64, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::new(60.0, 1.0), 4.0, 64, Datum::Plane)];
     let sight = Sight::new(&plate_view(), &supports);
     let run = sight.runs().find(|r| r.support == Some(0)).unwrap();
     let (room, line) = sight.constrained(run, &supports).unwrap();
@@ -132,7 +132,7 @@ proptest! {
     fn sight_agrees_with_single_rays(cells in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64, 0.4..2.5f64, 3..20usize), 40), angle in 0.0..6.0f64) {
         // One pillar to a cell of a grid: they never touch.
         let place = |k: usize, u: f64, v: f64| DVec2::new(20.0 + 8.0 * (k % 8) as f64 + 2.9 * u, -18.0 + 8.0 * (k / 8) as f64 + 2.9 * v);
-        let supports: Vec<Support> = cells.iter().enumerate().map(|(k, &(u, v, r, n))| pillar(place(k, u, v), r, n, Datum::AxisPlane)).collect();
+        let supports: Vec<Support> = cells.iter().enumerate().map(|(k, &(u, v, r, n))| pillar(place(k, u, v), r, n, Datum::Plane)).collect();
         let sight = Sight::new(&plate_view(), &supports);
         let whole = 2.0 * 0.1f64.atan();
         prop_assert!((sight.width() - whole).abs() < 1e-5);

@@ -24,10 +24,7 @@ const ENERGIES: [Energy; 2] = [
         ordering: true,
         reweight: 0,
     }),
-    Energy::Curvature(CurvatureOptions {
-        hidden_weight: 0.1,
-        ordering: true,
-    }),
+    Energy::Curvature(CurvatureOptions::PAPER),
 ];
 
 /// A ball with deep waves, parts of which hide each other, and a little ball before it.
@@ -96,8 +93,8 @@ impl Numbers {
 #[test]
 fn reliefs_stay_in_their_layers_on_every_ray() {
     for (energy, datum) in [
-        (ENERGIES[0], Datum::AxisPlane),
-        (ENERGIES[1], Datum::AxisPlane),
+        (ENERGIES[0], Datum::Plane),
+        (ENERGIES[1], Datum::Plane),
         (ENERGIES[0], Datum::Surface),
     ] {
         let setting = contoured(datum);
@@ -127,7 +124,7 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
                 let direction = solved.map.plane.direction(q);
                 // How far the relief stands behind what its layer is measured from, millimetres at the axis.
                 let behind = match datum {
-                    Datum::AxisPlane => {
+                    Datum::Plane => {
                         let p = setting.eye + depth * direction;
                         (p.truncate() - *axis).dot(towards.normalize())
                     }
@@ -218,7 +215,7 @@ fn inverted(setting: &Setting, solved: &Solved, rays: usize) -> (usize, usize) {
 
 #[test]
 fn sheets_keep_their_order_on_every_ray() {
-    let setting = contoured(Datum::AxisPlane);
+    let setting = contoured(Datum::Plane);
     let with = solved(&setting, ENERGIES[0]);
     assert_eq!(with.depths.solved.broken, 0, "{:?}", with.depths.solved);
     assert_eq!(order_inversions(&with.map, &with.target, &with.relief), 0);
@@ -288,7 +285,7 @@ fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
 
 #[test]
 fn the_order_of_a_file_does_not_matter() {
-    let mut setting = contoured(Datum::AxisPlane);
+    let mut setting = contoured(Datum::Plane);
     let models = [0, 3, 11].map(|seed| {
         let mesh = if seed == 0 {
             setting.model.clone()
@@ -347,6 +344,7 @@ fn program(limits: &[f64]) -> Program {
     Program {
         variables: n,
         quadratic: quadratic.to_csc(),
+        factor: Vec::new(),
         linear: (0..n).map(|i| ((i * 37 % 11) as f64 - 5.0) / 3.0).collect(),
         equalities: Vec::new(),
         rows: rows.collect(),

@@ -1,11 +1,14 @@
 //! Integration tests, one module a subject.
 
 mod architecture;
+mod attributes;
+mod bodies;
 mod camouflage;
 mod certificates_coverage;
 mod cli;
 mod dense;
 mod diagram;
+mod energies;
 mod files;
 mod formats;
 mod golden;
@@ -28,5 +31,6 @@ mod scenes;
 mod shapes;
 mod split;
 mod steps;
+mod surface;
 mod tolerance;
 mod visibility;

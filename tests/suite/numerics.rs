@@ -19,10 +19,7 @@ const NORMAL: Energy = Energy::Normal(NormalOptions {
     ordering: true,
     reweight: 0,
 });
-const CURVATURE: Energy = Energy::Curvature(CurvatureOptions {
-    hidden_weight: 0.1,
-    ordering: true,
-});
+const CURVATURE: Energy = Energy::Curvature(CurvatureOptions::PAPER);
 
 /// All that the stages up to the relief make of a setting.
 struct Outcome {
@@ -140,7 +137,7 @@ fn assert_near(found: f64, wanted: f64, relative: f64) {
 fn the_view_map_covers_the_solid_angle_of_a_ball() {
     let setting = Setting::new(
         ball(MIDDLE, 12.0, 40),
-        vec![pillar(DVec2::ZERO, 30.0, 64, Datum::AxisPlane)],
+        vec![pillar(DVec2::ZERO, 30.0, 64, Datum::Plane)],
     );
     let (target, map) = setting.seen();
     let turned_to_eye = (0..target.mesh.faces.len()).map(|f| {
@@ -208,7 +205,7 @@ fn a_ball_hides_the_ball_behind_it() {
         ball(MIDDLE, 8.0, 24),
         ball(MIDDLE + 30.0 * DVec3::Y, 8.0, 24),
     );
-    let supports = vec![pillar(DVec2::ZERO, 30.0, 64, Datum::AxisPlane)];
+    let supports = vec![pillar(DVec2::ZERO, 30.0, 64, Datum::Plane)];
     let alone = seen_sr(&Setting::new(front.clone(), supports.clone()).seen().1);
     let mut both = front.clone();
     both.append(&behind);
@@ -223,7 +220,7 @@ fn a_wide_pillar_covers_everything_and_a_thin_one_its_share() {
     let share = |radius: f64| {
         let setting = Setting::new(
             ball(MIDDLE, 12.0, 40),
-            vec![pillar(DVec2::ZERO, radius, 256, Datum::AxisPlane)],
+            vec![pillar(DVec2::ZERO, radius, 256, Datum::Plane)],
         );
         let (_, map) = setting.seen();
         let carried = |c: &usize| map.cells[*c].face.is_some() && map.cells[*c].support.is_some();
@@ -386,6 +383,7 @@ fn a_smaller_hidden_weight_serves_what_is_seen() {
         let options = CurvatureOptions {
             hidden_weight,
             ordering: false,
+            ..CurvatureOptions::PAPER
         };
         let outcome = Setting::tight().solved(Energy::Curvature(options));
         let rows = curvature_rows(&outcome.target.mesh, &outcome.depths.s, EYE);
@@ -505,6 +503,7 @@ fn a_contradiction_names_a_row_of_it() {
     let mut program = Program {
         variables: 2,
         quadratic: quadratic.to_csc(),
+        factor: Vec::new(),
         linear: vec![0.0; 2],
         equalities: Vec::new(),
         rows: vec![

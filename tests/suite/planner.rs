@@ -2,8 +2,9 @@
 
 use super::shapes;
 use glam::{DVec2, DVec3};
+use pillarforest::geom::hull;
 use pillarforest::mesh::TriMesh;
-use pillarforest::planner::convex::{clipped, hull, part};
+use pillarforest::planner::convex::{clipped, part};
 use pillarforest::planner::{
     Adjustment, Brief, Care, Ended, Freedom, Kind, Matters, Pillar, Planned, Region, Shape,
     Subject, Survey, Watch, plan, repair, start,
@@ -34,10 +35,11 @@ fn round(radius: f64) -> Shape {
         reach: radius,
         heights: [90.0, 90.0],
         layer: Layer {
-            datum: Datum::AxisPlane,
+            datum: Datum::Plane,
             front: 5.0,
             back: 2.0,
             core: 1.0,
+            hull: false,
         },
         written: format!("Round(radius: {radius})"),
     }

@@ -80,10 +80,11 @@ fn an_empty_auto_is_what_the_schema_says() {
     assert!(shape.round && shape.profile.len() == 64 && (shape.reach - 4.0).abs() < 1e-12);
     assert_eq!(shape.heights, [90.0, 90.0]);
     let layer = Layer {
-        datum: Datum::AxisPlane,
+        datum: Datum::Plane,
         front: 5.0,
         back: 2.0,
         core: 1.0,
+        hull: false,
     };
     assert_eq!(shape.layer, layer);
     assert_eq!((brief.gap, brief.count), (0.5, [1, 200]));

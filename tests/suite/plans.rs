@@ -92,6 +92,7 @@ fn brief_of(scene: &Scene) -> (Brief, Vec<Pillar>) {
     for support in &scene.supports {
         match &support.kind {
             SupportKind::Base { outline, .. } => region = outline.clone(),
+            SupportKind::Body { .. } => panic!("{} is no pillar", support.name),
             SupportKind::Pillar {
                 axis,
                 profile,
@@ -270,10 +271,11 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
         round,
         heights: [90.0, 90.0],
         layer: Layer {
-            datum: Datum::AxisPlane,
+            datum: Datum::Plane,
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            hull: false,
         },
         written: String::new(),
     }

@@ -90,8 +90,8 @@ fn a_sharp_lip_and_a_small_film_are_no_walls() {
 fn the_gap_between_two_pillars_is_measured() {
     for (gap, ok) in [(0.15, true), (0.05, false)] {
         let supports = [
-            pillar(DVec2::new(-5.0 - gap / 2.0, 0.0), 5.0, 4, Datum::AxisPlane),
-            pillar(DVec2::new(5.0 + gap / 2.0, 0.0), 5.0, 4, Datum::AxisPlane),
+            pillar(DVec2::new(-5.0 - gap / 2.0, 0.0), 5.0, 4, Datum::Plane),
+            pillar(DVec2::new(5.0 + gap / 2.0, 0.0), 5.0, 4, Datum::Plane),
         ];
         let left = (v(-10.0, -5.0, -0.5), v(-gap / 2.0, 5.0, 40.0));
         let right = (v(gap / 2.0, -5.0, -0.5), v(10.0, 5.0, 40.0));
@@ -147,7 +147,7 @@ fn what_starts_in_mid_air_reaches_its_own_extent() {
 
 #[test]
 fn a_slim_pillar_and_a_small_bed_fail() {
-    let mut slim = pillar(DVec2::ZERO, 1.0, 4, Datum::AxisPlane);
+    let mut slim = pillar(DVec2::ZERO, 1.0, 4, Datum::Plane);
     if let SupportKind::Pillar { top, .. } = &mut slim.kind {
         *top = 90.0;
     }
@@ -192,7 +192,7 @@ fn loose_parts_and_hollows_are_told_with_their_size() {
 
 #[test]
 fn the_neck_of_a_pillar_carved_from_two_sides_is_its_core() {
-    let supports = [pillar(DVec2::ZERO, 5.0, 4, Datum::AxisPlane)];
+    let supports = [pillar(DVec2::ZERO, 5.0, 4, Datum::Plane)];
     let lower = (v(-4.0, -4.0, 0.0), v(4.0, 4.0, 15.0));
     let neck = (v(-4.0, -0.2, 14.0), v(4.0, 0.2, 26.0));
     let upper = (v(-4.0, -4.0, 25.0), v(4.0, 4.0, 40.0));

@@ -370,10 +370,7 @@ fn listed(list: &Value, wanted: impl Fn(&Value) -> bool) -> f64 {
 
 /// `ok` must follow from the certificates, and from nothing else.
 fn verdict(scene: &Scene, build: &Build, report: &Value) -> Vec<String> {
-    let ordered = match scene.energy {
-        Energy::Normal(o) => o.ordering,
-        Energy::Curvature(o) => o.ordering,
-    };
+    let ordered = scene.energy.ordering();
     let views = report["views"].as_array().into_iter().flatten();
     let certificates: Vec<&Value> = views.map(|v| &v["certificate"]).collect();
     let holds = |c: &&Value| {
@@ -553,10 +550,7 @@ impl Looked {
         layers: &[Option<(f64, f64)>],
         certificate: &Value,
     ) -> Vec<String> {
-        let ordered = match scene.energy {
-            Energy::Normal(o) => o.ordering,
-            Energy::Curvature(o) => o.ordering,
-        };
+        let ordered = scene.energy.ordering();
         // A torn piece along a contour may be narrower than the rays' distance, and only it has an order with what lies behind.
         let torn = scene.steps.is_some() && matches!(scene.energy, Energy::Normal(_));
         if torn || !ordered || number(certificate, "order_inversions") > 0.0 {

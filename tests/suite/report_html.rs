@@ -12,7 +12,9 @@ use pillarforest::contest::Contest;
 use pillarforest::diag::Diagnostic;
 use pillarforest::render::ViewPictures;
 use pillarforest::report::html::{Exhibits, ViewExhibit, print_sheet};
-use pillarforest::report::{CertificateReport, Check, ModelShare, Report, SolidReport, ViewReport};
+use pillarforest::report::{
+    CertificateReport, Check, ModelShare, Proof, Report, SolidReport, ViewReport,
+};
 use pillarforest::scene;
 use serde_json::{Value, json};
 
@@ -54,9 +56,12 @@ fn certificate() -> CertificateReport {
         bound_violation_mm: 1.25e-9,
         clamp_mm: 2.5e-8,
         order_inversions: 41,
-        duality_gap_rel: 5.37e-8,
-        primal_residual: 6.5e-12,
-        dual_residual: 7.25e-11,
+        proof: Some(Proof {
+            duality_gap_rel: 5.37e-8,
+            primal_residual: 6.5e-12,
+            dual_residual: 7.25e-11,
+        }),
+        not_an_optimum: None,
         coverage: 0.987_654_3,
         reaching: 0.976_543_2,
         models: vec![ModelShare {

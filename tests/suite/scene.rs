@@ -11,12 +11,21 @@ use std::path::Path;
 pub const CUBE: &str = "v -10 -10 -10\nv 10 -10 -10\nv 10 10 -10\nv -10 10 -10\nv -10 -10 10\nv 10 -10 10\nv 10 10 10\nv -10 10 10\n\
 f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
 
+/// The same cube with paint on it.
+const PAINTED: &str = "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n\
+property float weight\nproperty float signed\nproperty float faint\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n\
+element face 12\nproperty list uchar int vertex_indices\nend_header\n\
+-10 -10 -10 0 -2 0 0 0 0\n10 -10 -10 1 1 0 255 0 0\n10 10 -10 2 0 0 0 0 0\n-10 10 -10 0.5 0 0 0 0 0\n\
+-10 -10 10 1 0 0.25 0 0 0\n10 -10 10 1 0 0 0 0 0\n10 10 10 1 0 0 0 0 0\n-10 10 10 4 0 0 0 0 0\n\
+3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n";
+
 /// Two eyes, 64 pillars.
 const PLAIN: &str = include_str!("../cases/ok.ron");
 
 fn resolve(text: &str) -> Result<Warned<Scene>, Vec<Diagnostic>> {
     scene::resolve(text, &|name| match name {
         "cube.obj" => Ok(CUBE.as_bytes().to_vec()),
+        "painted.ply" => Ok(PAINTED.as_bytes().to_vec()),
         _ => Err(Diagnostic::error(format!("no file {name}"))),
     })
 }
@@ -301,7 +310,7 @@ fn layouts_stand_where_they_should() {
             .iter()
             .filter_map(|s| match &s.kind {
                 SupportKind::Pillar { axis, .. } => Some(axis.length()),
-                SupportKind::Base { .. } => None,
+                SupportKind::Base { .. } | SupportKind::Body { .. } => None,
             })
             .collect();
         assert_eq!(axes.len(), count, "{places}");
@@ -462,6 +471,15 @@ fn bundled_scenes_resolve_without_a_word() {
     let four = bundled("scenes/four-creatures.ron", &models);
     assert_eq!(four.views.len(), 4);
     assert!(four.supports.len() > 25);
+    for (name, supports) in [
+        ("fig03-stairs", 1),
+        ("fig04-groove", 1),
+        ("fig13-wave", 1),
+        ("fig17-herd", 1),
+    ] {
+        let scene = bundled(&format!("scenes/paper/{name}.ron"), &models);
+        assert_eq!(scene.supports.len(), supports, "{name}");
+    }
 }
 
 #[test]
@@ -477,7 +495,7 @@ fn the_reference_forest_is_what_it_should_be() {
     let layer = scene.supports[0].layer.expect("pillars carry");
     assert_eq!(
         (layer.datum, layer.front, layer.back),
-        (Datum::AxisPlane, 5.0, 2.0)
+        (Datum::Plane, 5.0, 2.0)
     );
     let SupportKind::Pillar {
         axis, bottom, top, ..
@@ -549,4 +567,28 @@ fn arbitrary_edits_never_crash() {
         Ok(())
     });
     done.unwrap();
+}
+
+#[test]
+fn regions_mark_the_vertices_they_hold_in_the_files_coordinates() {
+    let scene = good(include_str!("../cases/regions_ok.ron"));
+    let [cube, painted] = [0, 1].map(|v| &scene.views[v].models[0]);
+    let by_file = |k: usize| scene.views[k].models[0].original.as_ref().unwrap();
+    // Weights and freedom of the file's vertices, in its order.
+    let of = |k: usize, model: &pillarforest::view::PlacedModel| -> (Vec<f64>, Vec<bool>) {
+        let vertices = by_file(k).vertex_of.iter().map(|v| v.unwrap() as usize);
+        vertices
+            .map(|v| (model.marks.weights[v], model.marks.free[v]))
+            .unzip()
+    };
+    let (weights, free) = of(0, cube);
+    assert_eq!(weights, [0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 3.0, 1.0]);
+    assert_eq!(free, [0, 1, 2, 3, 4, 5, 6, 7].map(|v| v == 0));
+    // As painted, but never 0; free only above a half.
+    let (weights, free) = of(1, painted);
+    assert_eq!(weights, [1e-3, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 4.0]);
+    assert_eq!(free, [0, 1, 2, 3, 4, 5, 6, 7].map(|v| v != 0 && v != 3));
+    let plain = good(PLAIN);
+    let marks = plain.views[0].marks();
+    assert!(marks.weights.is_empty() && marks.free.is_empty());
 }

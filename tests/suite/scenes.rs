@@ -3,11 +3,13 @@
 //! The reference forest is built where `PILLARFOREST_MODELS` names the folder of its models.
 
 use crate::golden;
+use glam::DVec3;
 use pillarforest::compile::{Build, Goal, OutputFile, run};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::{inspect, read_mesh};
 use pillarforest::mesh::Solid;
 use pillarforest::scene::{self, Scene};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -331,25 +333,61 @@ fn pictures_are_the_golden_ones() {
     golden::picture("owl.png", bytes(&built("minimal").build, "views/owl.png"));
 }
 
+/// A row of the table of bundled models: file, size in mm and number of vertices.
+fn listed_model(row: &str) -> (&str, DVec3, usize) {
+    let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+    let sides: Vec<f64> = cells[2].split(" x ").map(|n| n.parse().unwrap()).collect();
+    let vertices = cells[3].replace(',', "").parse().unwrap();
+    (
+        cells[0].trim_matches('`'),
+        DVec3::from_slice(&sides),
+        vertices,
+    )
+}
+
 #[test]
-fn bundled_models_are_sound() {
-    let mut count = 0;
-    for entry in fs::read_dir(root().join("scenes/models")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|e| e != "ply") {
-            continue;
-        }
-        count += 1;
-        let name = path.file_name().unwrap().to_str().unwrap();
-        let read = read_mesh(name, &fs::read(&path).unwrap()).unwrap();
+fn bundled_models_are_sound_and_as_listed() {
+    let folder = root().join("scenes/models");
+    let page = fs::read_to_string(folder.join("README.md")).unwrap();
+    let rows = page.lines().filter(|l| l.starts_with("| `"));
+    let mut listed: Vec<_> = rows.map(listed_model).collect();
+    listed.sort_by_key(|row| row.0);
+    let mut found: Vec<String> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".ply"))
+        .collect();
+    found.sort();
+    let names: Vec<&str> = listed.iter().map(|row| row.0).collect();
+    assert_eq!(found, names);
+    listed.par_iter().for_each(|&(name, size, vertices)| {
+        let bytes = fs::read(folder.join(name)).unwrap();
+        assert!(bytes.len() < 3_200_000, "{name}: {} bytes", bytes.len());
+        let read = read_mesh(name, &bytes).unwrap();
         assert!(read.warnings.is_empty(), "{name}: {:?}", read.warnings);
-        let vertices = read.value.vertices.len();
-        assert!((15_000..=40_000).contains(&vertices), "{name}: {vertices}");
+        assert_eq!(read.value.vertices.len(), vertices, "{name}");
         assert!(read.value.volume() > 0.0, "{name}");
+        let (low, high) = read.value.bounds().unwrap();
+        assert!((high - low - size).abs().max_element() <= 0.5, "{name}");
+        let foot = (low + high).with_z(2.0 * low.z) * 0.5;
+        assert!(foot.length() < 1e-4, "{name} stands at {foot}");
         let solid = Solid::new(read.value).unwrap_or_else(|defects| panic!("{name}: {defects:?}"));
         assert_eq!((solid.parts(), solid.cavities()), (1, 0), "{name}");
+    });
+}
+
+#[test]
+fn the_bundled_box_is_a_plain_cube() {
+    let bytes = fs::read(root().join("scenes/models/box.ply")).unwrap();
+    let cube = read_mesh("box.ply", &bytes).unwrap().value;
+    assert_eq!(cube.vertices.len(), 6 * 16 * 16 + 2);
+    assert_eq!(cube.faces.len(), 6 * 16 * 16 * 2);
+    assert_eq!((cube.volume(), cube.area()), (64_000.0, 9_600.0));
+    for face in 0..cube.faces.len() {
+        // Halves of squares of 2.5 mm, facing along an axis; the vector has twice the area.
+        assert_eq!(cube.area_vector(face).abs().max_element(), 6.25);
+        assert_eq!(cube.normal(face).abs().max_element(), 1.0);
     }
-    assert_eq!(count, 4);
 }
 
 #[test]

@@ -101,6 +101,7 @@ pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            hull: false,
         }),
     }
 }
@@ -125,6 +126,8 @@ pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
         file: format!("{name}.obj"),
         matrix: DMat4::IDENTITY,
         mesh: model,
+        original: None,
+        marks: Default::default(),
     };
     View {
         name: name.into(),
@@ -170,11 +173,7 @@ pub fn grove() -> (Vec<View>, Vec<Support>) {
         (6.0, -13.0),
         (22.0, 18.0),
     ];
-    let kinds = [
-        (48, Datum::AxisPlane),
-        (4, Datum::AxisPlane),
-        (6, Datum::Surface),
-    ];
+    let kinds = [(48, Datum::Plane), (4, Datum::Plane), (6, Datum::Surface)];
     let mut supports: Vec<Support> = places
         .iter()
         .enumerate()
@@ -205,19 +204,20 @@ impl Setting {
     /// A bumpy ball on three pillars at different depths, in a layer much thinner than it.
     pub fn tight() -> Self {
         let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
-        let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::AxisPlane));
+        let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::Plane));
         Self::new(bumpy(12.0), supports.to_vec())
     }
 
     /// The same ball inside one huge pillar whose layer takes all of it at any scale from a third to four thirds.
     pub fn roomy() -> Self {
         let layer = Layer {
-            datum: Datum::AxisPlane,
+            datum: Datum::Plane,
             front: 110.0,
             back: 55.0,
             core: 1.0,
+            hull: false,
         };
-        let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::AxisPlane);
+        let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::Plane);
         support.layer = Some(layer);
         Self::new(bumpy(12.0), vec![support])
     }

@@ -42,7 +42,7 @@ fn base(outline: Vec<DVec2>, thickness: f64) -> Support {
 
 /// A pillar sunk into the base by a millimetre, as scenes have them.
 fn sunk(x: f64, y: f64, radius: f64, corners: usize) -> Support {
-    let mut support = pillar(DVec2::new(x, y), radius, corners, Datum::AxisPlane);
+    let mut support = pillar(DVec2::new(x, y), radius, corners, Datum::Plane);
     if let SupportKind::Pillar {
         profile, bottom, ..
     } = &mut support.kind
@@ -245,6 +245,7 @@ fn a_number_is_engraved_on_free_ground() {
                 match &support.kind {
                     SupportKind::Pillar { profile, .. } => assert!(!contains(profile, p)),
                     SupportKind::Base { outline, .. } => assert!(contains(outline, p)),
+                    SupportKind::Body { .. } => panic!("{} is no pillar", support.name),
                 }
             }
             let cut = split.cuts.x[0];

@@ -36,10 +36,11 @@ fn block(name: &str, lo: DVec2, hi: DVec2) -> Support {
             round: false,
         },
         layer: Some(Layer {
-            datum: Datum::AxisPlane,
+            datum: Datum::Plane,
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            hull: false,
         }),
     }
 }
@@ -180,7 +181,7 @@ fn rays_at_the_solid_measure_what_the_closed_form_says() {
         groups: &seen.groups,
         relief: &seen.relief,
     };
-    let forest = carve(&seen.setting.supports, &[view]).expect("a forest");
+    let forest = carve(&SupportField::new(&seen.setting.supports), &[view]).expect("a forest");
     let mesh = forest.whole.mesh();
     let bvh = Bvh::new(mesh);
     let mut found = seen.tolerance();
@@ -226,7 +227,7 @@ fn a_model_in_full_depth_opens_nowhere() {
 fn a_support_alone_without_tears_has_no_cut() {
     let setting = Setting::new(
         ball(MIDDLE, 3.0, 12),
-        vec![pillar(DVec2::ZERO, 5.0, 48, Datum::AxisPlane)],
+        vec![pillar(DVec2::ZERO, 5.0, 48, Datum::Plane)],
     );
     let found = Seen::new(setting).tolerance();
     assert_eq!(found.eye_tolerance_mm, Default::default());
@@ -237,7 +238,7 @@ fn a_support_alone_without_tears_has_no_cut() {
 #[test]
 fn tears_open_as_late_as_steps_say() {
     let mut setting = Setting::tight();
-    let mut wide = pillar(DVec2::ZERO, 15.0, 64, Datum::AxisPlane);
+    let mut wide = pillar(DVec2::ZERO, 15.0, 64, Datum::Plane);
     wide.layer = setting.supports[0].layer;
     setting.supports = vec![wide];
     let (target, map) = setting.seen();

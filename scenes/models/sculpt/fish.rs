@@ -65,7 +65,6 @@ pub fn fish() -> Creature {
         0.6 * (1.0 - 0.25 * step(9.0, 4.0, near)) * (1.0 + 1.0 * step(0.5, 5.0, straighten(p).y))
     };
     Creature {
-        name: "fish",
         field: Box::new(field),
         low: v(-50.0, -26.0, -38.0),
         high: v(42.0, 26.0, 42.0),

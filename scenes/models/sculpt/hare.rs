@@ -33,7 +33,6 @@ pub fn hare() -> Creature {
         0.645 * face * (1.0 + 1.0 * step(2.0, 14.0, p.y))
     };
     Creature {
-        name: "hare",
         field: Box::new(field),
         low: v(-42.0, -42.0, -3.0),
         high: v(42.0, 42.0, 86.0),

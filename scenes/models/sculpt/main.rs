@@ -1,12 +1,17 @@
 //! Sculpts the bundled models: `cargo run --release --example sculpt -- scenes/models [NAME...]`.
 //!
-//! Takes a directory and, optionally, names of creatures; writes `<name>.ply` for each (binary, little-endian,
+//! Takes a directory and, optionally, names of models; writes `<name>.ply` for each (binary, little-endian,
 //! millimetres, z up). Deterministic: the same program writes the same bytes.
 
 mod coat;
+mod cow;
+mod cube;
+mod dragon;
 mod field;
 mod fish;
 mod hare;
+mod head;
+mod imp;
 mod meshing;
 mod owl;
 mod turtle;
@@ -18,49 +23,64 @@ use std::process::ExitCode;
 /// Spacing of the first grid, mm; fine enough to catch the thinnest part (claws, about 1.5 mm) several times.
 const PITCH: f64 = 0.55;
 
-const NAMES: [&str; 4] = ["owl", "hare", "fish", "turtle"];
+/// How a model comes about.
+#[derive(Clone, Copy)]
+enum Origin {
+    /// Meshed from an implicit surface.
+    Sculpted(fn() -> Creature),
+    /// Computed directly.
+    Built(fn() -> Mesh),
+}
+use Origin::{Built, Sculpted};
+
+/// Every model by the name of its file.
+const MODELS: [(&str, Origin); 9] = [
+    ("owl", Sculpted(owl::owl)),
+    ("hare", Sculpted(hare::hare)),
+    ("fish", Sculpted(fish::fish)),
+    ("turtle", Sculpted(turtle::turtle)),
+    ("head", Sculpted(head::head)),
+    ("dragon", Sculpted(dragon::dragon)),
+    ("imp", Sculpted(imp::imp)),
+    ("cow", Sculpted(cow::cow)),
+    ("box", Built(cube::cube)),
+];
 
 fn main() -> ExitCode {
     let mut args = std::env::args().skip(1);
+    let names = MODELS.map(|(name, _)| name);
     let Some(folder) = args.next().map(PathBuf::from) else {
-        eprintln!("usage: sculpt DIR [owl|hare|fish|turtle ...]");
+        eprintln!("usage: sculpt DIR [{} ...]", names.join("|"));
         return ExitCode::from(2);
     };
     let wanted: Vec<String> = args.collect();
-    if let Some(unknown) = wanted.iter().find(|w| !NAMES.contains(&w.as_str())) {
+    if let Some(unknown) = wanted.iter().find(|w| !names.contains(&w.as_str())) {
         eprintln!(
-            "error: no creature is called {unknown:?}; there are {}",
-            NAMES.join(", ")
+            "error: no model is called {unknown:?}; there are {}",
+            names.join(", ")
         );
         return ExitCode::from(2);
     }
-    for name in NAMES {
+    for (name, origin) in MODELS {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;
         }
-        if let Err(message) = produce(&creature(name), &folder) {
-            eprintln!("error: {message}");
+        if let Err(message) = produce(name, origin, &folder) {
+            eprintln!("error: {name}: {message}");
             return ExitCode::FAILURE;
         }
     }
     ExitCode::SUCCESS
 }
 
-/// The creature of that name, one of [`NAMES`].
-fn creature(name: &str) -> Creature {
-    match name {
-        "owl" => owl::owl(),
-        "hare" => hare::hare(),
-        "fish" => fish::fish(),
-        _ => turtle::turtle(),
-    }
-}
-
-/// Meshes one creature, stands it on z = 0 and writes it.
-fn produce(creature: &Creature, folder: &Path) -> Result<(), String> {
-    let mut mesh = sculpt(creature, PITCH)?;
+/// Makes one model, stands it on z = 0 and writes it.
+fn produce(name: &str, origin: Origin, folder: &Path) -> Result<(), String> {
+    let mut mesh = match origin {
+        Sculpted(creature) => sculpt(&creature(), PITCH)?,
+        Built(mesh) => mesh(),
+    };
     stand(&mut mesh);
-    let path = folder.join(format!("{}.ply", creature.name));
+    let path = folder.join(format!("{name}.ply"));
     std::fs::write(&path, ply(&mesh)).map_err(|e| format!("{}: {e}", path.display()))?;
     println!(
         "{}: {} vertices, {} faces",

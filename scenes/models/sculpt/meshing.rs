@@ -36,7 +36,6 @@ pub struct Mesh {
 
 /// What is to be meshed.
 pub struct Creature {
-    pub name: &'static str,
     /// The finished surface.
     pub field: std::boxed::Box<Field>,
     /// A box around it, mm.
@@ -79,10 +78,7 @@ fn polygonise(creature: &Creature, pitch: f64) -> Result<Mesh, String> {
     };
     let solid = Manifold::level_set_with_tolerance(inside, bounds, pitch, 0.0, pitch * 0.02);
     if solid.is_empty() {
-        return Err(format!(
-            "{}: the field encloses nothing inside its box",
-            creature.name
-        ));
+        return Err("the field encloses nothing inside its box".into());
     }
     let gl = solid.get_mesh_gl64(-1);
     let n = gl.num_prop as usize;

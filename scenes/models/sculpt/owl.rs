@@ -54,7 +54,6 @@ pub fn owl() -> Creature {
         0.68 * face * (1.0 + 1.2 * step(0.0, 10.0, p.y))
     };
     Creature {
-        name: "owl",
         field: Box::new(field),
         low: v(-30.0, -30.0, -2.0),
         high: v(30.0, 30.0, 84.0),

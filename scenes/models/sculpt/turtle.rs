@@ -32,7 +32,6 @@ pub fn turtle() -> Creature {
             * (1.0 + 0.5 * step(6.0, 3.0, p.z) * step(14.0, 9.0, t.y))
     };
     Creature {
-        name: "turtle",
         field: Box::new(field),
         low: v(-46.0, -46.0, -3.0),
         high: v(50.0, 42.0, 46.0),

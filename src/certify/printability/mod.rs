@@ -109,7 +109,7 @@ fn slenderness(supports: &[Support], limits: &PrintLimits) -> Option<PrintCheck>
             let (width, height) = (narrowest(profile), top.max(0.0));
             Some((s, axis.extend(height), width, height / limits.slimmest))
         }
-        SupportKind::Base { .. } => None,
+        SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     });
     let (support, place, width, wanted) =
         pillars.min_by(|a, b| (a.2 / a.3).total_cmp(&(b.2 / b.3)))?;

@@ -204,6 +204,10 @@ fn owner(supports: &[Support], at: DVec3) -> Option<usize> {
             Some(at.truncate().distance(*axis) - reach)
         }
         SupportKind::Base { .. } => None,
+        SupportKind::Body { .. } => {
+            let (lo, hi) = s.mesh.bounds()?;
+            Some(at.distance(at.clamp(lo, hi)))
+        }
     };
     let near = supports
         .iter()

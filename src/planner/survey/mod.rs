@@ -35,7 +35,7 @@ impl Offsets {
     pub fn new(shape: &Shape) -> Self {
         let layer = shape.layer;
         let near = match layer.datum {
-            Datum::AxisPlane => -layer.front,
+            Datum::Plane => -layer.front,
             Datum::Surface => -layer.front - shape.reach,
         };
         Self {

@@ -5,7 +5,7 @@ use crate::certify::conflicts::Trouble;
 use crate::certify::coverage::{Cause, Gap};
 use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Way, WorstCut};
 use crate::formats::markup::escaped;
-use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL};
+use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
 use std::fmt::Write as _;
 
@@ -47,8 +47,7 @@ pub fn certificate(name: &str, found: &CertificateReport) -> String {
 }
 
 fn surface(c: &CertificateReport) -> Vec<Row> {
-    let proof = "Proof that no other depths keep the normals better; zero but for rounding.";
-    vec![
+    let mut rows = vec![
         Row(
             "Outside its layer",
             measure(c.bound_violation_mm, 3, "mm"),
@@ -67,22 +66,38 @@ fn surface(c: &CertificateReport) -> Vec<Row> {
             Some(c.order_inversions == 0),
             "Places where a farther part of the model comes before a nearer one.".into(),
         ),
+    ];
+    rows.extend(c.proof.iter().flat_map(proof));
+    rows.extend(c.not_an_optimum.map(|what| {
+        Row(
+            "Best possible depths",
+            "not claimed".into(),
+            None,
+            format!("{}.", escaped(what)),
+        )
+    }));
+    rows
+}
+
+fn proof(p: &Proof) -> [Row; 3] {
+    let proof = "Proof that no other depths keep the normals better; zero but for rounding.";
+    [
         Row(
             "Duality gap",
-            tiny(c.duality_gap_rel),
-            Some(c.duality_gap_rel <= OPTIMAL),
+            tiny(p.duality_gap_rel),
+            Some(p.duality_gap_rel <= OPTIMAL),
             proof.into(),
         ),
         Row(
             "Bounds and order kept to",
-            tiny(c.primal_residual),
-            Some(c.primal_residual <= OPTIMAL),
+            tiny(p.primal_residual),
+            Some(p.primal_residual <= OPTIMAL),
             "Largest breach of a condition in the solver's own units (primal residual).".into(),
         ),
         Row(
             "Forces in balance to",
-            tiny(c.dual_residual),
-            Some(c.dual_residual <= OPTIMAL),
+            tiny(p.dual_residual),
+            Some(p.dual_residual <= OPTIMAL),
             "What is left of the gradient at the optimum (dual residual).".into(),
         ),
     ]

@@ -4,6 +4,7 @@ use super::ViewExhibit;
 use super::certificate::certificate;
 use super::text::{count, measure, measure_or, percent, picture, place, table, table_if_any, tiny};
 use crate::formats::markup::escaped;
+use crate::mimic::{Ending, Iterated};
 use crate::render::{HEAT, SCALE_END_DEG, ViewPictures};
 use crate::report::{ProgramReport, ViewReport};
 use crate::steps::StepSummary;
@@ -147,7 +148,12 @@ fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
 
 /// What only those want to know who wonder how it was made.
 fn inner(v: &ViewReport) -> String {
-    let rows: Vec<_> = [v.steps.as_ref().map(steps), v.program.as_ref().map(program)]
+    let parts = [
+        v.steps.as_ref().map(steps),
+        v.program.as_ref().map(program),
+        v.iterated.as_ref().map(iterated),
+    ];
+    let rows: Vec<_> = parts
         .into_iter()
         .flatten()
         .flatten()
@@ -199,5 +205,34 @@ fn program(p: &ProgramReport) -> Vec<(&'static str, String)> {
         ("Rounds of adding conditions", count(p.rounds as usize)),
         ("Conditions added", count(p.rows_added)),
         ("What the energy leaves open", escaped(p.gauge)),
+    ]
+}
+
+fn iterated(i: &Iterated) -> Vec<(&'static str, String)> {
+    let changes = i.rounds.iter().map(|r| measure(100.0 * r.change, 2, ""));
+    let ending = match i.ending {
+        Ending::Converged => "converged",
+        Ending::Unfinished => "not settled",
+        Ending::Diverged => "diverged",
+        Ending::Failed => "failed",
+    };
+    vec![
+        (
+            "Rounds with the Laplacian of the deformed surface",
+            format!("{} of {}, {ending}", i.rounds.len(), i.allowed),
+        ),
+        (
+            "Changes round by round, in hundredths of the layer",
+            changes.collect::<Vec<_>>().join(", "),
+        ),
+        (
+            "Turn of the normals, linearised and kept",
+            format!(
+                "{} and {} (round {})",
+                measure(i.linearised_deg, 2, "°"),
+                measure(i.kept_deg, 2, "°"),
+                i.kept
+            ),
+        ),
     ]
 }

@@ -5,8 +5,8 @@
 //! larger than the input justifies.
 
 use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::formats::{inspect, load_model, read_mesh};
-use pillarforest::mesh::TriMesh;
+use pillarforest::formats::{inspect, load_original, read_mesh};
+use pillarforest::mesh::{NO_UV, Original, TriMesh};
 use pillarforest::scene::{self, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};
 
@@ -52,6 +52,26 @@ fn sound(mesh: &TriMesh) {
     );
 }
 
+/// Attributes fit the mesh they belong to.
+fn fitting(original: &Original) {
+    sound(&original.mesh);
+    let count = original.mesh.vertices.len();
+    let attributes = &original.attributes;
+    assert_eq!(original.vertex_of.len(), count);
+    assert!(attributes.colours.is_empty() || attributes.colours.len() == count);
+    let unit = |c: &f64| (0.0..=1.0).contains(c);
+    assert!(attributes.colours.as_flattened().iter().all(unit));
+    for scalar in &attributes.scalars {
+        assert!(scalar.values.len() == count && scalar.values.iter().all(|v| v.is_finite()));
+    }
+    if let Some(uvs) = &attributes.uvs {
+        assert_eq!(uvs.corners.len(), original.mesh.faces.len());
+        assert!(uvs.points.iter().all(|p| p.is_finite()));
+        let known = |uv: &u32| *uv == NO_UV || (*uv as usize) < uvs.points.len();
+        assert!(uvs.corners.as_flattened().iter().all(known));
+    }
+}
+
 /// Every way a model file is read.
 pub fn model(name: &str, bytes: &[u8]) {
     let read = read_mesh(name, bytes);
@@ -71,10 +91,11 @@ pub fn model(name: &str, bytes: &[u8]) {
     let inspected = inspect(name, bytes);
     assert_eq!(inspected.is_ok(), read.is_ok());
     for at_own_size in [false, true] {
-        match load_model(name, bytes, at_own_size) {
+        match load_original(name, bytes, at_own_size) {
             Ok(Warned { value, warnings }) => {
-                assert!(read.is_ok() && !value.faces.is_empty());
-                sound(&value);
+                assert!(read.is_ok() && !value.mesh.faces.is_empty());
+                sound(&value.mesh);
+                fitting(&value.original);
                 telling(&warnings);
             }
             Err(problem) => telling(&[problem]),

@@ -1,0 +1,113 @@
+//! Every energy and variant on one scene: seconds for groups, depths and relief, and the error of the relief's normals.
+//!
+//!     cargo bench --bench energies -- [--scene FILE] [--models DIR] [--energy TEXT]...
+//!
+//! Takes a scene file (`scenes/plate.ron`) and energies as the scene language writes them (all variants of the paper and what it
+//! compares itself with). Prints a table, one line for each energy and view as it goes. The conic form is in it next to the
+//! quadratic one, which it equals in everything but time.
+
+#[path = "../thickness/measure.rs"]
+mod measure;
+
+use pillarforest::diag::Diagnostic;
+use pillarforest::scene::{self, Scene};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use std::{env, fs};
+
+const ENERGIES: [&str; 9] = [
+    "Normal(steps: Never)",
+    "Curvature()",
+    "Curvature(form: Conic)",
+    "Curvature(hidden_weight: 1)",
+    "Curvature(scale_invariant: false)",
+    "Curvature(mean_curvature: true)",
+    "Curvature(iterate: 20, hidden_weight: 1)",
+    "Linear",
+    "Gradient()",
+];
+
+/// What the command line asks for.
+struct Wishes {
+    scene: PathBuf,
+    models: Option<PathBuf>,
+    energies: Vec<String>,
+}
+
+impl Wishes {
+    fn read(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
+        let mut wishes = Self {
+            scene: PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes/plate.ron"),
+            models: None,
+            energies: Vec::new(),
+        };
+        while let Some(word) = words.next() {
+            // Cargo adds it to the arguments of every benchmark.
+            if word == "--bench" {
+                continue;
+            }
+            let value = words.next().ok_or(format!("{word} wants a value"))?;
+            match word.as_str() {
+                "--scene" => wishes.scene = value.into(),
+                "--models" => wishes.models = Some(value.into()),
+                "--energy" => wishes.energies.push(value),
+                _ => return Err(format!("there is no {word}")),
+            }
+        }
+        if wishes.energies.is_empty() {
+            wishes.energies = ENERGIES.map(String::from).to_vec();
+        }
+        Ok(wishes)
+    }
+}
+
+fn main() -> ExitCode {
+    match Wishes::read(env::args().skip(1)).and_then(|wishes| run(&wishes)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(what) => {
+            eprintln!("error: {what}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(wishes: &Wishes) -> Result<(), String> {
+    let text = fs::read_to_string(&wishes.scene)
+        .map_err(|e| format!("{}: {e}", wishes.scene.display()))?;
+    println!("| energy | view | seconds | mean | median | 90 % below |");
+    println!("|---|---|---|---|---|---|");
+    for energy in &wishes.energies {
+        let scene = resolved(&text, wishes, energy)?;
+        for (view, seen) in scene.views.iter().zip(measure::seen(&scene)?) {
+            let start = Instant::now();
+            let errors = measure::errors(&scene, view, &seen);
+            let seconds = start.elapsed().as_secs_f64();
+            match errors {
+                Ok([mean, median, p90]) => println!(
+                    "| `{energy}` | {} | {seconds:.2} | {mean:.2} | {median:.2} | {p90:.2} |",
+                    view.name
+                ),
+                Err(why) => println!(
+                    "| `{energy}` | {} | {seconds:.2} | {why} | - | - |",
+                    view.name
+                ),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The scene with this energy.
+fn resolved(text: &str, wishes: &Wishes, energy: &str) -> Result<Scene, String> {
+    let text = scene::set(text, &format!("energy={energy}")).map_err(|d| d.message)?;
+    let beside = wishes.scene.parent().unwrap_or(Path::new("."));
+    let folder = wishes.models.as_deref().unwrap_or(beside);
+    let read = |file: &str| {
+        let path = folder.join(file);
+        fs::read(&path).map_err(|e| Diagnostic::error(format!("{}: {e}", path.display())))
+    };
+    scene::resolve(&text, &read)
+        .map(|done| done.value)
+        .map_err(|problems| measure::told(&problems))
+}

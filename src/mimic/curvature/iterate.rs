@@ -1,0 +1,180 @@
+//! The nonlinear problem by a sequence of programs, each with the cotangent Laplacian of the last one's surface (Fig 6).
+//!
+//! Eq 9 takes cotangents and areas from the model. Here every round takes them from the surface of the round before; what is
+//! wanted stays the model's curvature over the region of each vertex (`Sheet::rows_on`). The paper does not write its update down;
+//! of several that were tried (wanted vectors turned, or of the deformed surface's length) this alone converged on its box.
+//! Round 0 is the linearised problem itself.
+//!
+//! Nothing promises that it converges: cotangents of triangles that became obtuse are far off (so the paper, which found it to work for
+//! small regular meshes only), and hidden parts without bounds and with little weight run away first: on the box it wants `hidden_weight: 1`,
+//! as the paper's figure has. So the turning of the seen faces, measured without any Laplacian, watches over every round, and where
+//! the rounds do not end well the best of them is kept and the ending told.
+
+use super::sheet::Sheet;
+use super::{Depths, Problem, seen_solid_angles};
+use crate::mesh::TriMesh;
+use glam::DVec3;
+use serde::Serialize;
+
+/// Change at which the rounds have converged, as a share of the layer's width: 7 micrometres of 7 mm, less than any printer's
+/// resolution.
+const SETTLED: f64 = 1e-3;
+/// Mean turn over the best one from which a surface runs away: on the box it falls from round to round, and a surface that lost a
+/// tenth never came back.
+const RUNAWAY: f64 = 1.1;
+
+/// How an iteration went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Iterated {
+    /// Rounds allowed.
+    pub allowed: u32,
+    pub rounds: Vec<Round>,
+    pub ending: Ending,
+    /// The round whose surface is the result; 0 is the linearised problem.
+    pub kept: usize,
+    /// Mean turn of the linearised problem's seen faces, and of the result's.
+    pub linearised_deg: f64,
+    pub kept_deg: f64,
+}
+
+/// One round.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Round {
+    /// Largest change of a seen vertex's relative depth, as a share of the layer's width.
+    pub change: f64,
+    /// Mean angle between the normals of seen faces and the model's, by solid angle.
+    pub turned_deg: f64,
+}
+
+/// How it ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The last change is below the tolerance.
+    Converged,
+    /// All rounds are used up.
+    Unfinished,
+    /// The surface ran away from the model's normals.
+    Diverged,
+    /// A round's program could not be solved, or its surface passes through the eye.
+    Failed,
+}
+
+impl Iterated {
+    /// What to warn of, if it did not converge.
+    pub fn warning(&self) -> Option<String> {
+        let how = match self.ending {
+            Ending::Converged => return None,
+            Ending::Unfinished => format!("did not settle in {} rounds", self.allowed),
+            Ending::Diverged => format!("diverged in round {}", self.rounds.len()),
+            Ending::Failed => format!("could not be solved in round {}", self.rounds.len() + 1),
+        };
+        let kept = match self.kept {
+            0 => "the linearised surface is kept".to_owned(),
+            k => format!("the surface of round {k} is kept"),
+        };
+        Some(format!(
+            "the iterated Laplacian {how}; {kept} (normals turned by {:.2} degrees on average, linearised {:.2})",
+            self.kept_deg, self.linearised_deg
+        ))
+    }
+}
+
+/// The depths after as many rounds as it takes, from the solution `first` of the linearised problem.
+pub fn iterated(problem: &Problem, first: Depths) -> Depths {
+    let gauge = Turn::new(problem);
+    let linearised_deg = gauge.mean_deg(&first.s);
+    let mut kept = (0, linearised_deg, first.clone());
+    let (mut rounds, mut last) = (Vec::new(), first);
+    let mut ending = Ending::Unfinished;
+    for k in 1..=problem.options.iterate as usize {
+        let sheet = Sheet::new(&surface(problem, &last.s), problem.map.plane.eye);
+        let forms = problem.model.rows_on(&sheet, &last.s);
+        let next = problem.solve(&sheet, &forms, &last.s);
+        let Some(next) = next.ok().filter(|d| d.s.iter().all(|s| *s > 0.0)) else {
+            ending = Ending::Failed;
+            break;
+        };
+        let round = Round {
+            change: change(problem, &last.s, &next.s),
+            turned_deg: gauge.mean_deg(&next.s),
+        };
+        rounds.push(round);
+        last = next;
+        if round.turned_deg > RUNAWAY * kept.1 {
+            ending = Ending::Diverged;
+            break;
+        }
+        let converged = round.change <= SETTLED;
+        if converged || round.turned_deg < kept.1 {
+            kept = (k, round.turned_deg, last.clone());
+        }
+        if converged {
+            ending = Ending::Converged;
+            break;
+        }
+    }
+    let (kept, kept_deg, depths) = kept;
+    Depths {
+        iterated: Some(Iterated {
+            allowed: problem.options.iterate,
+            rounds,
+            ending,
+            kept,
+            linearised_deg,
+            kept_deg,
+        }),
+        ..depths
+    }
+}
+
+/// The model moved along the eye's rays.
+fn surface(problem: &Problem, s: &[f64]) -> TriMesh {
+    let eye = problem.map.plane.eye;
+    let mesh = &problem.target.mesh;
+    let moved = mesh
+        .vertices
+        .iter()
+        .zip(s)
+        .map(|(v, s)| eye + *s * (*v - eye));
+    TriMesh {
+        vertices: moved.collect(),
+        faces: mesh.faces.clone(),
+    }
+}
+
+fn change(problem: &Problem, before: &[f64], after: &[f64]) -> f64 {
+    let changes = before.iter().zip(after).zip(&problem.visible);
+    let seen = changes.filter(|(_, visible)| **visible);
+    seen.fold(0.0, |most: f64, ((a, b), _)| most.max((a - b).abs())) / problem.unit
+}
+
+/// How far the seen faces are turned.
+struct Turn<'a> {
+    problem: &'a Problem<'a>,
+    /// Seen faces, their normals in the model and solid angles.
+    faces: Vec<(usize, DVec3, f64)>,
+}
+
+impl<'a> Turn<'a> {
+    fn new(problem: &'a Problem) -> Self {
+        let seen = seen_solid_angles(problem.target, problem.map).into_iter();
+        let seen = seen.enumerate().filter(|(_, seen)| *seen > 0.0);
+        Self {
+            problem,
+            faces: seen
+                .map(|(f, seen)| (f, problem.target.mesh.normal(f), seen))
+                .collect(),
+        }
+    }
+
+    /// Mean angle between the normals of the model and of the surface at relative depths `s`, degrees.
+    fn mean_deg(&self, s: &[f64]) -> f64 {
+        let moved = surface(self.problem, s);
+        let whole: f64 = self.faces.iter().map(|f| f.2).sum();
+        let turned = |(f, normal, seen): &(usize, DVec3, f64)| {
+            seen * moved.normal(*f).angle_between(*normal).to_degrees()
+        };
+        self.faces.iter().map(turned).sum::<f64>() / whole
+    }
+}

@@ -1,0 +1,291 @@
+//! The paper's curvature energy (Eq 9, weights Eq 13) in relative depths `s`, on the whole mesh, and its variants.
+//!
+//! Row of vertex `i`: `w_i / sqrt(A_i) * sum over j of c_ij v_j (s_j - s_i)`, three coordinates, `v_j` from the eye. With
+//! `s = lambda / lambda0` instead of `lambda` this is the same problem, better scaled; written in differences it is exactly
+//! zero for `s = 1`. The unknowns are what `s` and `mu` differ from a surface (1 at first) in units of a layer's typical width.
+//! Bounds are Eq 11. The gauge is a mean of 1 of the area-weighted `s` over each block of components and groups that hang
+//! together: the paper pins one vertex, but then the result depends on which.
+//!
+//! Variants: without the term `lambda_i / lambda0_i` of Eq 7 (Fig 5) the energy is not scale invariant, so that there is nothing
+//! to be fixed by a gauge: it determines every depth itself, of every component. With the mean curvature (Eq 7 against Eq 9,
+//! Fig 7) rows are divided by `H0_i`, never by less than a share of its mean (see [`sheet`]). `iterate` and the conic form (appendix, Eq
+//! 17) have their own modules.
+
+mod iterate;
+mod sheet;
+
+pub use iterate::{Ending, Iterated, Round};
+
+use super::conditions::{Condition, plain_tangent};
+use super::lazily::{MARGIN, Meaning, solve_lazily};
+use super::program::{Program, Quadratic, Row, gathered};
+use super::{
+    CurvatureForm, CurvatureOptions, Depths, SolveError, Solved, scales, seen_solid_angles,
+    typical_width,
+};
+use crate::geom::solid_angle;
+use crate::groups::Groups;
+use crate::mesh::DisjointSets;
+use crate::viewmap::{Target, ViewMap};
+use sheet::{Form, Sheet};
+
+/// Weight of `(mu - 1)^2` relative to the mean diagonal (the paper's alpha, about 1 instead of 0): 1e-12 to 1e-7 give the same
+/// surface.
+const ALPHA: f64 = 1e-9;
+
+/// Depths of the whole mesh under `conditions`, of which the first `rows` are rows from the start and the others only where
+/// a solution breaks them.
+///
+/// # Errors
+/// If the first program is infeasible or cannot be solved. What befalls later ones of an iteration is told in the result.
+pub fn depths(
+    options: CurvatureOptions,
+    target: &Target,
+    map: &ViewMap,
+    groups: &Groups,
+    conditions: &[Condition],
+    rows: usize,
+) -> Result<Depths, SolveError> {
+    let model = Sheet::new(&target.mesh, map.plane.eye);
+    let problem = Problem {
+        options,
+        target,
+        map,
+        groups,
+        conditions,
+        rows,
+        unit: typical_width(groups),
+        visible: visible_vertices(target, map),
+        model,
+    };
+    let forms = if options.scale_invariant {
+        problem.model.scale_invariant()
+    } else {
+        problem.model.absolute()
+    };
+    let start = vec![1.0; target.mesh.vertices.len()];
+    let first = problem.solve(&problem.model, &forms, &start)?;
+    if options.iterate == 0 {
+        return Ok(first);
+    }
+    Ok(iterate::iterated(&problem, first))
+}
+
+/// What all programs of one view have in common.
+struct Problem<'a> {
+    options: CurvatureOptions,
+    target: &'a Target,
+    map: &'a ViewMap,
+    groups: &'a Groups,
+    conditions: &'a [Condition],
+    rows: usize,
+    /// Of all unknowns, in relative depth.
+    unit: f64,
+    visible: Vec<bool>,
+    /// The surface of the model itself.
+    model: Sheet,
+}
+
+impl Problem<'_> {
+    fn is_used(&self, vertex: usize) -> bool {
+        self.model.areas[vertex] > 0.0
+    }
+
+    /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
+    fn solve(&self, sheet: &Sheet, forms: &[Form], start: &[f64]) -> Result<Depths, SolveError> {
+        let n = start.len();
+        let variables = n + self.groups.groups.len();
+        let mut quadratic = Quadratic::new(variables);
+        let mut linear = vec![0.0; variables];
+        self.gather(sheet, forms, &mut quadratic, &mut linear);
+        (0..self.groups.groups.len()).for_each(|g| quadratic.square(n + g, ALPHA));
+        let unused = (0..n).filter(|i| !self.is_used(*i));
+        unused.for_each(|i| quadratic.square(i, 1.0));
+        let (quadratic, factor) = quadratic.finish_with_factor();
+        let tangent =
+            |c: &Condition, s: &[f64]| row(&c.tightened(MARGIN * self.unit), s, start, self.unit);
+        let first = self.conditions[..self.rows].iter();
+        let mut program = Program {
+            variables,
+            linear,
+            quadratic,
+            factor: match self.options.form {
+                CurvatureForm::Quadratic => Vec::new(),
+                CurvatureForm::Conic => factor,
+            },
+            equalities: if self.options.scale_invariant {
+                gauge(self, start)
+            } else {
+                Vec::new()
+            },
+            rows: first.filter_map(|c| tangent(c, start)).collect(),
+        };
+        let depths = |u: &[f64]| {
+            let depth = |i: usize| {
+                if self.is_used(i) {
+                    start[i] + self.unit * u[i]
+                } else {
+                    1.0
+                }
+            };
+            // The program's own scales while conditions are checked, as in `normal`.
+            let mu = (0..self.groups.groups.len()).map(|g| 1.0 + self.unit * u[n + g]);
+            ((0..n).map(depth).collect(), mu.collect())
+        };
+        let meaning = Meaning {
+            depths: &depths,
+            tangent: &tangent,
+        };
+        let (u, solved) = solve_lazily(&mut program, self.conditions, &meaning)?;
+        let (s, _) = depths(&u);
+        let mu = scales(self.groups, &[], &s, |_| 1.0);
+        let solved = Solved {
+            gauge: if self.options.scale_invariant {
+                "the area-weighted mean relative depth is 1"
+            } else {
+                "nothing: the energy knows the model's size and determines every depth"
+            },
+            ..solved
+        };
+        Ok(Depths {
+            s,
+            mu,
+            solved,
+            iterated: None,
+        })
+    }
+
+    /// The squares of all forms with their weights, scaled to a mean diagonal of 1.
+    fn gather(&self, sheet: &Sheet, forms: &[Form], quadratic: &mut Quadratic, linear: &mut [f64]) {
+        let weights = self.weights(sheet);
+        let used = || (0..forms.len()).filter(|i| self.is_used(*i));
+        // Twice the square of a form adds its squared coefficients to the diagonal.
+        let squares = |i: usize| {
+            forms[i]
+                .terms
+                .iter()
+                .map(|t| t.1.length_squared())
+                .sum::<f64>()
+        };
+        let trace: f64 = used().map(|i| 2.0 * weights[i] * squares(i)).sum();
+        let mean = trace / forms.len() as f64;
+        for i in used() {
+            let Form { terms, value } = &forms[i];
+            for axis in 0..3 {
+                let terms: Vec<(usize, f64)> = terms.iter().map(|(j, v)| (*j, v[axis])).collect();
+                quadratic.form(&terms, weights[i] / mean);
+                let slope = 2.0 * weights[i] / mean * value[axis] / self.unit;
+                terms.iter().for_each(|(j, v)| linear[*j] += slope * v);
+            }
+        }
+    }
+
+    /// Weights of the squares of all forms: `w_i^2 / A_i`, over the squared mean curvature of the model if Eq 9 is not to
+    /// cancel it.
+    fn weights(&self, sheet: &Sheet) -> Vec<f64> {
+        let flat = self.model.flat();
+        let curvatures = self.model.curvatures(flat);
+        let hidden = self.options.hidden_weight;
+        let weight = |i: usize| {
+            let seen = if self.visible[i] {
+                1.0
+            } else {
+                hidden * hidden
+            };
+            let bend = if self.options.mean_curvature {
+                // In units of the curvature that counts as flat.
+                flat / curvatures[i]
+            } else {
+                1.0
+            };
+            seen * self.target.weight(i as u32).powi(2) / sheet.areas[i] * bend * bend
+        };
+        (0..self.visible.len()).map(weight).collect()
+    }
+}
+
+/// Vertices of whose faces turned to the eye at least half is seen, by solid angle. A share rather than the vertex itself,
+/// which on a silhouette is seen or not by rounding alone: two such flips changed relative depths by 7e-3 on a small ball.
+fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
+    let seen = seen_solid_angles(target, map);
+    let mut shares = vec![(0.0, 0.0); target.mesh.vertices.len()];
+    for (f, face) in target.mesh.faces.iter().enumerate() {
+        let [a, b, c] = target.mesh.corners(f).map(|p| p - map.plane.eye);
+        let whole = solid_angle(a, b, c);
+        if whole > 0.0 || seen[f] > 0.0 {
+            for v in face {
+                shares[*v as usize].0 += seen[f];
+                shares[*v as usize].1 += whole.abs();
+            }
+        }
+    }
+    shares
+        .iter()
+        .map(|(seen, whole)| *whole > 0.0 && *seen >= 0.5 * whole)
+        .collect()
+}
+
+/// One equality a block: the area-weighted mean of `s` is 1. The unknowns are what `s` differs from `start`, in units.
+fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
+    let areas = &problem.model.areas;
+    let n = areas.len();
+    let mut blocks = DisjointSets::new(n + problem.groups.groups.len());
+    for face in &problem.target.mesh.faces {
+        blocks.join(face[0], face[1]);
+        blocks.join(face[1], face[2]);
+    }
+    for bound in &problem.groups.bounds {
+        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
+    }
+    let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
+    for [front, back] in problem.conditions.iter().filter_map(sides) {
+        blocks.join(front, back);
+    }
+    let mut members: Vec<(u32, usize)> = (0..n)
+        .filter(|i| areas[*i] > 0.0)
+        .map(|i| (blocks.root(i as u32), i))
+        .collect();
+    members.sort_unstable();
+    let block = |b: &[(u32, usize)]| {
+        let total: f64 = b.iter().map(|m| areas[m.1]).sum();
+        let terms: Vec<_> = b.iter().map(|m| (m.1, areas[m.1] / total)).collect();
+        let missing: f64 = terms.iter().map(|(i, a)| a * (1.0 - start[*i])).sum();
+        (terms, missing / problem.unit)
+    };
+    members.chunk_by(|x, y| x.0 == y.0).map(block).collect()
+}
+
+/// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
+/// groups has no row: `tau / mu` is not convex there. The unknowns are what depths differ from `start` and scales from 1, in
+/// units.
+fn row(condition: &Condition, s: &[f64], start: &[f64], unit: f64) -> Option<Row> {
+    let n = start.len();
+    let mut terms = Vec::with_capacity(7);
+    let factor = match (condition.plus, condition.minus) {
+        (Some(_), Some(_)) if condition.between_groups().is_some() => return None,
+        (Some(_), Some(_)) => (-condition.limit).exp(),
+        _ => 1.0,
+    };
+    if let Some(side) = condition.plus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, factor * g)));
+        if condition.minus.is_none() {
+            terms.push((n + side.group as usize, -condition.limit.exp()));
+        }
+    }
+    if let Some(side) = condition.minus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, -g)));
+        if condition.plus.is_none() {
+            terms.push((n + side.group as usize, (-condition.limit).exp()));
+        }
+    }
+    // In s and mu all rows are homogeneous.
+    let begin = |v: usize| start.get(v).copied().unwrap_or(1.0);
+    let sum: f64 = terms.iter().map(|(v, c)| c * begin(*v)).sum();
+    Some(Row {
+        kind: condition.kind,
+        terms: gathered(terms),
+        limit: -sum / unit,
+    })
+}

@@ -1,0 +1,312 @@
+//! Supports that are no pillars: what their layers promise, found by rays at the finished solid and the bare one.
+
+use super::shapes::ball;
+use glam::DVec3;
+use pillarforest::bvh::Bvh;
+use pillarforest::compile::{self, Build, Goal};
+use pillarforest::diag::Diagnostic;
+use pillarforest::formats::load_model;
+use pillarforest::geom::ImagePlane;
+use pillarforest::groups::{groups, layer_in};
+use pillarforest::mesh::{Solid, TriMesh};
+use pillarforest::mimic::depths;
+use pillarforest::relief::relief;
+use pillarforest::scene::{self, Scene};
+use pillarforest::support::{HULL_MM, Slab};
+use pillarforest::viewmap::{SupportField, Target, view_map};
+
+/// A ball of 20 mm before the support, seen from in front and a little above.
+fn text(supports: &str) -> String {
+    // In one piece a facet that spans several steps finds no depths in a layer that follows them.
+    let steps = if supports.starts_with("Stairs") {
+        "Allowed()"
+    } else {
+        "Never"
+    };
+    format!(
+        "(models: [(name: \"ball\", file: \"ball.obj\", place: Fit(height: 40, at: (0, 0, 10)))],\n\
+         views: [(name: \"front\", eye: (0, -300, 90), look_at: (0, 0, 30), models: [\"ball\"])],\n\
+         supports: [{supports}],\n\
+         energy: Normal(steps: {steps}),\n\
+         output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))"
+    )
+}
+
+fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
+    match name {
+        "ball.obj" => Ok(obj(&ball(DVec3::ZERO, 20.0, 40))),
+        "sheet.obj" => Ok(obj(&sheet())),
+        "grey.png" => Ok(ramp()),
+        _ => Err(Diagnostic::error(format!("no file {name}"))),
+    }
+}
+
+fn obj(mesh: &TriMesh) -> Vec<u8> {
+    let vertices = mesh
+        .vertices
+        .iter()
+        .map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
+    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
+    text.into_bytes()
+}
+
+/// An upright square of 80 mm that looks along -y, with a border.
+fn sheet() -> TriMesh {
+    let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    TriMesh {
+        vertices: vec![
+            corner(-40.0, 0.0),
+            corner(40.0, 0.0),
+            corner(40.0, 80.0),
+            corner(-40.0, 80.0),
+        ],
+        faces: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+/// A PNG that is black on the left and white on the right.
+fn ramp() -> Vec<u8> {
+    let mut pixmap = tiny_skia::Pixmap::new(2, 1).expect("two pixels");
+    pixmap.pixels_mut()[1] =
+        tiny_skia::PremultipliedColorU8::from_rgba(255, 255, 255, 255).expect("white");
+    pixmap.pixels_mut()[0] =
+        tiny_skia::PremultipliedColorU8::from_rgba(0, 0, 0, 255).expect("black");
+    pixmap.encode_png().expect("a PNG")
+}
+
+fn good(supports: &str) -> Scene {
+    let done = scene::resolve(&text(supports), &read);
+    let done = done.unwrap_or_else(|problems| panic!("{supports}: {problems:?}"));
+    assert!(done.warnings.is_empty(), "{supports}: {:?}", done.warnings);
+    done.value
+}
+
+fn built(scene: &Scene) -> Build {
+    compile::run(scene, Goal::All, &|_, _| {}, &|| false)
+        .unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+fn forest(build: &Build) -> TriMesh {
+    let file = build.files.iter().find(|f| f.path == "forest.stl");
+    load_model("forest.stl", &file.expect("a forest").bytes, false)
+        .expect("a sound file")
+        .value
+}
+
+fn report(build: &Build) -> serde_json::Value {
+    let file = build.files.iter().find(|f| f.path == "report.json");
+    serde_json::from_slice(&file.expect("a report").bytes).expect("JSON")
+}
+
+/// How far the forest stands before the bare support (negative: behind it) on rays at the ball, millimetres along the rays.
+fn offsets(scene: &Scene, mesh: &TriMesh) -> Vec<f64> {
+    let view = &scene.views[0];
+    let mut bare = TriMesh::default();
+    scene.supports.iter().for_each(|s| bare.append(&s.mesh));
+    let target = Bvh::new(&view.target());
+    let (bare, forest) = (Bvh::new(&bare), Bvh::new(mesh));
+    let plane = ImagePlane::looking_at(view.eye, view.look_at);
+    let mut found = Vec::new();
+    for i in 0..80 {
+        for j in 0..80 {
+            let place = |k: i32| (f64::from(k) + 0.37) / 40.0 - 1.0;
+            let q = 0.08 * glam::DVec2::new(place(i), place(j));
+            let way = plane.direction(q).normalize();
+            if target.first_hit(view.eye, way).is_none() {
+                continue;
+            }
+            let [a, b] =
+                [&bare, &forest].map(|bvh| bvh.first_hit(view.eye, way).expect("a support").t);
+            found.push(a - b);
+        }
+    }
+    assert!(found.len() > 1500, "{} rays", found.len());
+    found
+}
+
+#[test]
+fn reliefs_stay_in_their_layers_on_supports_of_any_form() {
+    // Of plates millimetres are square to the face; on rays they are up to 8 % more here.
+    let kinds = [
+        (
+            "Plate(width: 80, height: 70, at: (0, 20, 0), depth: (front: 4))",
+            4.0 * 1.08,
+            0.1,
+            1,
+        ),
+        (
+            "Plate(width: 80, height: 70, thickness: 8, at: (0, 20, 0), depth: (front: 1, back: 3))",
+            1.08,
+            3.0 * 1.08,
+            1,
+        ),
+        (
+            "Stairs(steps: 5, width: 80, rise: 14, going: 12, depth: (front: 5))",
+            5.0,
+            0.1,
+            7,
+        ),
+        (
+            "Groove(width: 80, height: 80, opening: 70, deep: 30, thickness: 45, at: (0, 20, -20), depth: (front: 1, back: 5))",
+            1.0,
+            5.0,
+            1,
+        ),
+        (
+            "Wave(width: 80, height: 80, heights: Formula(\"2 * sin(x / 6) * cos(y / 9)\"), pitch: 4, at: (0, 20, 0), depth: (front: 2, back: 2))",
+            2.0,
+            2.0,
+            1,
+        ),
+        (
+            "Mesh(file: \"ball.obj\", place: Fit(height: 140, at: (0, 80, -40)), depth: (front: 1.5, back: 1.5))",
+            1.5,
+            1.5,
+            1,
+        ),
+    ];
+    for (kind, front, back, groups) in kinds {
+        let scene = good(kind);
+        let build = built(&scene);
+        // A ball that hangs in the air is no mistake here.
+        let hangs = |d: &&Diagnostic| kind.starts_with("Mesh") && d.message.contains("overhang");
+        let failures: Vec<_> = build.failures.iter().filter(|d| !hangs(d)).collect();
+        assert!(failures.is_empty(), "{kind}: {failures:?}");
+        let mesh = forest(&build);
+        let solid = Solid::new(mesh.clone()).unwrap_or_else(|d| panic!("{kind}: {d:?}"));
+        assert_eq!(solid.parts(), 1, "{kind}");
+        let report = report(&build);
+        let view = &report["views"][0];
+        assert_eq!(view["groups"], groups, "{kind}");
+        assert_eq!(view["certificate"]["coverage"], 1.0, "{kind}");
+        let offsets = offsets(&scene, &mesh);
+        let most = offsets.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = offsets.iter().copied().fold(f64::INFINITY, f64::min);
+        // A hair for what f32 and mended solids round, and nearly all of the room is used.
+        assert!(
+            most <= front + 1e-3 && most > 0.8 * front.min(1.0),
+            "{kind}: {most}"
+        );
+        assert!(least >= -back - 1e-3, "{kind}: {least}");
+        if back > 1.0 {
+            assert!(least < -0.5 * back, "{kind}: {least}");
+        }
+    }
+}
+
+#[test]
+fn outlines_lie_on_the_support_where_they_are_to() {
+    for (outline, held) in [("OnSupport", true), ("Free", false)] {
+        let scene = good(&format!(
+            "Plate(width: 80, height: 70, thickness: 8, at: (0, 20, 0), depth: (front: 4, back: 3, outline: {outline}))"
+        ));
+        let (view, field) = (&scene.views[0], SupportField::new(&scene.supports));
+        let plane = ImagePlane::looking_at(view.eye, view.look_at);
+        let target = Target::new(view.target(), &plane).expect("in front of the eye");
+        let map = view_map(plane, &target, &field).expect("a view map");
+        let groups = groups("front", &map, &target, &field).expect("groups");
+        let depths = depths(scene.energy, &target, &map, &groups).expect("depths");
+        let relief = relief(&map, &target, &field, &groups, &depths);
+        let slab = Slab::new(&scene.supports[0], view.eye).expect("a layer");
+        let (mut ends, mut off) = (0, 0.0f64);
+        for (c, cell) in map.cells.iter().enumerate() {
+            let Some(depth) = relief.depth[c] else {
+                continue;
+            };
+            for (k, z) in depth.into_iter().enumerate() {
+                let q = map.points[cell.corners[k] as usize];
+                let (near, far) = layer_in(&map, &field, &slab, c, k);
+                assert!(z >= near - 1e-9 && z <= far + 1e-9);
+                if cell.outline[k] {
+                    ends += 1;
+                    off = off.max(slab.offset(map.plane.point(q, z)).abs());
+                }
+            }
+        }
+        assert!(ends > 50, "{ends} corners on the outline");
+        assert_eq!(off < HULL_MM + 1e-9, held, "{outline}: {off} mm");
+    }
+}
+
+#[test]
+fn waves_have_the_heights_that_are_asked_for() {
+    let at = |kind: &str| good(kind).supports[0].mesh.clone();
+    let formula = at(
+        "Wave(width: 60, height: 40, pitch: 3, at: (5, 7, 2), heights: Formula(\"x / 10 + 0.05 * y\"))",
+    );
+    let face = formula.vertices.iter().filter(|v| v.y < 16.5);
+    let mut count = 0;
+    for v in face {
+        let (x, y) = (v.x - 5.0, v.z - 2.0);
+        assert!((7.0 - v.y - (x / 10.0 + 0.05 * y)).abs() < 1e-9, "{v}");
+        count += 1;
+    }
+    assert_eq!(count, 21 * 15);
+    // Two pixels: level beyond their middles, straight between them.
+    let image = at(
+        "Wave(width: 60, height: 40, pitch: 3, heights: Image(file: \"grey.png\", from: 1, to: 4))",
+    );
+    for v in image.vertices.iter().filter(|v| v.y < 9.5) {
+        let wanted = 1.0 + 3.0 * ((v.x + 15.0) / 30.0).clamp(0.0, 1.0);
+        assert!((-v.y - wanted).abs() < 1e-9, "{v}");
+    }
+}
+
+#[test]
+fn strips_stand_side_by_side_and_turn() {
+    let scene = good("Strips(count: 5, width: 20, height: 60, gap: 0.5, turn: 22.5)");
+    let names: Vec<&str> = scene.supports.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["strip-1", "strip-2", "strip-3", "strip-4", "strip-5"]
+    );
+    let normal = |k: usize| scene.supports[k].mesh.clone();
+    let volume = 20.0 * 60.0 * 5.0;
+    for k in 0..5 {
+        assert!((normal(k).volume() - volume).abs() < 1e-6);
+        let Some(slab) = Slab::new(&scene.supports[k], DVec3::new(0.0, -300.0, 0.0)) else {
+            panic!("strip {k} turns its back");
+        };
+        let away = slab.moved(DVec3::ZERO, 1.0);
+        let angle = (22.5 * (k as f64 - 2.0)).to_radians();
+        assert!(away.distance(DVec3::new(-angle.sin(), angle.cos(), 0.0)) < 1e-12);
+    }
+    // The middle one stands where the row does.
+    let (lo, hi) = normal(2).bounds().expect("a box");
+    assert!((lo + hi).x.abs() < 1e-9 && lo.y.abs() < 1e-9 && (hi.y - 5.0).abs() < 1e-9);
+}
+
+#[test]
+fn open_meshes_become_solid_by_a_thickness() {
+    let scene = good(
+        "Mesh(file: \"sheet.obj\", thickness: 6, place: Matrix([(1, 0, 0, 0), (0, 1, 0, 30), (0, 0, 1, 0), (0, 0, 0, 1)]))",
+    );
+    let mesh = &scene.supports[0].mesh;
+    assert!((mesh.volume() - 80.0 * 80.0 * 6.0).abs() < 1e-6);
+    let (lo, hi) = mesh.bounds().expect("a box");
+    assert!(
+        (lo.y - 30.0).abs() < 1e-9 && (hi.y - 36.0).abs() < 1e-9,
+        "behind its face"
+    );
+    let problems = scene::resolve(&text("Mesh(file: \"sheet.obj\")"), &read).expect_err("open");
+    assert!(
+        problems[0].message.contains("open: 4 edges"),
+        "{problems:?}"
+    );
+    let closed = "Mesh(file: \"ball.obj\", thickness: 6)";
+    let problems = scene::resolve(&text(closed), &read).expect_err("closed");
+    assert!(problems[0].message.contains("closed"), "{problems:?}");
+}
+
+#[test]
+fn layers_that_cut_a_body_through_are_refused_with_the_room_there_is() {
+    let scene = good(
+        "Groove(width: 80, height: 80, opening: 70, deep: 30, thickness: 33, at: (0, 20, 0), depth: (front: 1, back: 5))",
+    );
+    let problems = compile::run(&scene, Goal::Check, &|_, _| {}, &|| false).expect_err("too deep");
+    assert!(
+        problems[0].message.starts_with("groove leaves -"),
+        "{problems:?}"
+    );
+}
