@@ -42,9 +42,9 @@
 //! - Printable formats take [`mesh::Solid`], whose only constructor checks closed, oriented, 2-manifold, free of
 //!   self-intersection and positive volume after rounding to f32.
 //! - One library, one module: `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in `mimic::solve`, `manifold-rust` in
-//!   `carve::boolean`, `i_overlay` in `carve::hollow`.
-//! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths: a new
-//!   kind of support is a new variant, not a new pipeline.
+//!   `carve::boolean`, `i_overlay` in `carve::hollow`, `exmex` in `scene::heights`, `rand` in [`planner`].
+//! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that are no
+//!   pillars are one kind, a body: a new form is a new mesh in `scene::forms`, not a new pipeline.
 #![forbid(unsafe_code)]
 
 // In reading order; blank lines keep the formatter from sorting them.

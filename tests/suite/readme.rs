@@ -23,16 +23,18 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_scene_in_the_readme_resolves_without_a_word() {
+fn the_scenes_in_the_readme_resolve_without_a_word() {
     let scenes = blocks(&text("README.md"), "ron");
-    assert_eq!(scenes.len(), 1);
+    assert_eq!(scenes.len(), 2);
     let read = |file: &str| {
         fs::read(root().join("scenes").join(file))
             .map_err(|e| Diagnostic::error(format!("{file}: {e}")))
     };
-    let done = scene::resolve(&scenes[0], &read).unwrap_or_else(|problems| panic!("{problems:?}"));
-    assert!(done.warnings.is_empty(), "{:?}", done.warnings);
-    assert_eq!(done.value.views.len(), 2);
+    for (text, views) in scenes.iter().zip([2, 1]) {
+        let done = scene::resolve(text, &read).unwrap_or_else(|problems| panic!("{problems:?}"));
+        assert!(done.warnings.is_empty(), "{:?}", done.warnings);
+        assert_eq!(done.value.views.len(), views);
+    }
 }
 
 #[test]
