@@ -254,8 +254,12 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
             let pillars = match &loaded.scene.brief {
                 Some(_) => "pillars to be found".to_string(),
                 None => {
-                    let carry = |s: &&Support| s.layer.is_some();
-                    count(loaded.scene.supports.iter().filter(carry).count(), "pillar")
+                    let supports = &loaded.scene.supports;
+                    let what = match supports.iter().any(Support::is_body) {
+                        true => "support",
+                        false => "pillar",
+                    };
+                    count(supports.iter().filter(|s| s.layer.is_some()).count(), what)
                 }
             };
             let warnings = loaded.warnings.len() + build.warnings.len();
