@@ -1,9 +1,9 @@
-//! `pillarforest`: scenes of models, eyes and pillars become printable forests in which each model appears, complete and
-//! correctly shaded, from one eye only.
+//! `pillarforest`: scenes of models, eyes and pillars (or other supports: plates, stairs, any mesh) become printable forests in
+//! which each model appears, complete and correctly shaded, from one eye only.
 //!
 //! The method is *Appearance-Mimicking Surfaces* (Schueller, Panozzo & Sorkine-Hornung, SIGGRAPH Asia 2014): every vertex of a
 //! model moves only along its ray from the eye, so that normals are kept while hard depth bounds hold; every disconnected piece
-//! has a scale of its own; the surface is then cut and each piece scaled back onto its pillar.
+//! has a scale of its own; the surface is then cut and each piece scaled back onto its support.
 //!
 //! # Stages
 //!

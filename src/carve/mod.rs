@@ -10,14 +10,15 @@
 pub(crate) mod boolean;
 mod brace;
 pub(crate) mod hollow;
+mod piece;
 
-use crate::groups::{Groups, surface_in};
-use crate::mesh::{Defect, DisjointSets, Solid, mend, without_cavities};
-use crate::relief::{Relief, block};
-use crate::support::Slab;
+use crate::groups::Groups;
+use crate::mesh::{Defect, Solid, mend, without_cavities};
+use crate::relief::Relief;
 use crate::viewmap::{SupportField, ViewMap};
 use boolean::{Boolean, BooleanError};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
+use piece::Piece;
 use rayon::prelude::*;
 
 /// Widths that make operands overlap where they would only touch. Where they happen to touch all the same and cannot be
@@ -71,11 +72,6 @@ const UNIONS: usize = 16;
 const SUSPECT_MM: f64 = 0.5;
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
 pub(crate) const CRUMB_MM3: f64 = 0.005;
-
-/// A shell is carved down to this share of the way from its layer's back to the end of its backing.
-const FLOOR: f64 = 0.5;
-/// Facets of a shell whose depths differ by less where they meet are one sheet, millimetres: rounding and merged cells leave less.
-const SHEET_MM: f64 = 0.05;
 
 /// What one view adds to the forest.
 pub struct ViewRelief<'a> {
@@ -315,16 +311,16 @@ fn carve_at(
         let Some(slab) = view.groups.slabs[s as usize].filter(|_| !cells.is_empty()) else {
             continue;
         };
-        let bodies = Bodies {
+        let piece = Piece {
             field,
             support: s,
             slab: &slab,
             view,
         };
-        let made = bodies.relief(&cells, lap, &mut repairs).map_err(failed)?;
+        let made = piece.relief(&cells, lap, &mut repairs).map_err(failed)?;
         given_up.push((v, made.dropped));
         if slab.is_carved() {
-            let hollow = bodies.hollow(&cells, bed).map_err(failed)?;
+            let hollow = piece.hollow(&cells, bed).map_err(failed)?;
             bare = bare.minus(&hollow).map_err(failed)?;
         }
         blocks.push((v, slab, made.solid));
@@ -371,102 +367,6 @@ fn carve_at(
         repairs,
         widths,
     })
-}
-
-/// What one view makes of one support.
-struct Bodies<'a> {
-    field: &'a SupportField<'a>,
-    support: u32,
-    slab: &'a Slab,
-    view: &'a ViewRelief<'a>,
-}
-
-/// A relief as a solid, and the cells it had to give up, rising.
-struct Made {
-    solid: Boolean,
-    dropped: Vec<u32>,
-}
-
-impl Bodies<'_> {
-    fn relief(&self, cells: &[u32], lap: f64, repairs: &mut Repairs) -> Result<Made, BooleanError> {
-        let map = self.view.map;
-        let back = |c: u32, q: DVec2| {
-            if self.slab.is_shell() {
-                self.shell(c, q, 1.0)
-            } else {
-                self.slab.plane(map.plane.direction(q), self.slab.backing())
-            }
-        };
-        let behind = |c, k| hidden(map, c, k);
-        let (mut solids, mut dropped) = (Vec::new(), Vec::new());
-        for sheet in self.sheets(cells) {
-            let made = block(map, &sheet, &self.view.relief.depth, back, behind, lap);
-            repairs.filled += made.filled;
-            repairs.dropped_cells += made.dropped.len();
-            dropped.extend(made.dropped);
-            solids.push(Boolean::new(&made.mesh)?);
-        }
-        dropped.sort_unstable();
-        Ok(Made {
-            solid: Boolean::union(solids)?,
-            dropped,
-        })
-    }
-
-    fn hollow(&self, cells: &[u32], bed: f64) -> Result<Boolean, BooleanError> {
-        let (map, slab) = (self.view.map, self.slab);
-        if slab.is_shell() {
-            let floor = |c: u32, q: DVec2| self.shell(c, q, FLOOR);
-            hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
-        } else {
-            hollow::hollow(map, slab, self.support, cells, bed)
-        }
-    }
-
-    /// Where a shell's backing ends (`share` 1), or part of the way to there.
-    fn shell(&self, cell: u32, q: DVec2, share: f64) -> f64 {
-        let surface = surface_in(self.view.map, self.field, self.slab, cell as usize, q);
-        self.slab.shell_backing(surface, share)
-    }
-
-    /// Cells (rising) in parts over which the surface of a shell does not jump: where one fold of it hides another it does.
-    fn sheets(&self, cells: &[u32]) -> Vec<Vec<u32>> {
-        if !self.slab.is_shell() {
-            return vec![cells.to_vec()];
-        }
-        let map = self.view.map;
-        let local = |c: &u32| cells.binary_search(c).ok();
-        let mut sets = DisjointSets::new(cells.len());
-        for (i, c) in cells.iter().enumerate() {
-            for (k, n) in map.neighbours[*c as usize].iter().enumerate() {
-                let Some((n, j)) = n.and_then(|n| Some((n, local(&n)?))) else {
-                    continue;
-                };
-                let [a, b, _] = [0, 1, 2].map(|i| map.triangle(*c as usize)[(k + i) % 3]);
-                let apart = |q| self.shell(*c, q, 0.0) - self.shell(n, q, 0.0);
-                if apart(a.midpoint(b)).abs() < SHEET_MM {
-                    sets.join(i as u32, j as u32);
-                }
-            }
-        }
-        let mut sheets: Vec<(u32, u32)> = (0..cells.len())
-            .map(|i| (sets.root(i as u32), cells[i]))
-            .collect();
-        sheets.sort_unstable();
-        sheets
-            .chunk_by(|a, b| a.0 == b.0)
-            .map(|sheet| sheet.iter().map(|s| s.1).collect())
-            .collect()
-    }
-}
-
-/// Whether a nearer support hides what lies beyond side `k` of a cell.
-fn hidden(map: &ViewMap, c: u32, k: usize) -> bool {
-    let Some(n) = map.neighbours[c as usize][k] else {
-        return false;
-    };
-    let (here, there) = (&map.cells[c as usize], &map.cells[n as usize]);
-    here.support != there.support && there.support_depth < here.support_depth
 }
 
 fn cells_on(view: &ViewRelief, support: u32) -> Vec<u32> {

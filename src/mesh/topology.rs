@@ -195,4 +195,14 @@ impl DisjointSets {
         }
         (count as usize, numbers)
     }
+
+    /// The members of each set, rising; sets by their smallest member.
+    pub fn members(&mut self) -> Vec<Vec<u32>> {
+        let (count, numbers) = self.numbers();
+        let mut sets = vec![Vec::new(); count];
+        for (member, set) in numbers.iter().enumerate() {
+            sets[*set as usize].push(member as u32);
+        }
+        sets
+    }
 }

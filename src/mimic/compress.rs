@@ -235,11 +235,10 @@ fn blocks(target: &Target, groups: &Groups, slots: &[usize], used: &[bool]) -> V
         let support = n + slots[bound.group as usize];
         sets.join(bound.anchor.vertices[0], support as u32);
     }
-    let mut members: Vec<(u32, usize)> = (0..n)
-        .filter(|i| used[*i])
-        .map(|i| (sets.root(i as u32), i))
-        .collect();
-    members.sort_unstable();
-    let parts = members.chunk_by(|x, y| x.0 == y.0);
-    parts.map(|b| b.iter().map(|m| m.1).collect()).collect()
+    let vertices = |set: Vec<u32>| -> Vec<usize> {
+        let all = set.into_iter().map(|i| i as usize);
+        all.filter(|i| *i < n && used[*i]).collect()
+    };
+    let blocks = sets.members().into_iter().map(vertices);
+    blocks.filter(|b| !b.is_empty()).collect()
 }

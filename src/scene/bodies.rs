@@ -6,11 +6,10 @@ use super::raw::{
     List, RawBody, RawDepth, RawGroove, RawHeights, RawPlate, RawStairs, RawStrips, RawSupport,
     RawWave,
 };
-use super::reader::{Reader, Span, error_at, short};
+use super::reader::{Reader, Span, error_at, placed, short};
 use super::resolve::ReadFile;
 use super::spanned::Field;
 use super::{defaults, forms, heights, names, placing};
-use crate::diag::Place;
 use crate::geom::hull;
 use crate::mesh::{Edges, Solid, TriMesh};
 use crate::support::{Face, Support, SupportKind};
@@ -77,15 +76,27 @@ struct Form<'a> {
     frame: DMat4,
     /// Whether its face is the plane z = 0 of the frame.
     flat: bool,
-    /// Radians; edges sharper than this part its surface.
-    crease: f64,
+    /// Radians: edges sharper than this part its surface, if any do.
+    crease: Option<f64>,
     depth: &'a Field<RawDepth>,
+}
+
+impl<'a> Form<'a> {
+    /// Neither flat nor in parts.
+    fn whole(name: String, mesh: TriMesh, frame: DMat4, depth: &'a Field<RawDepth>) -> Self {
+        Self {
+            name,
+            mesh,
+            frame,
+            flat: false,
+            crease: None,
+            depth,
+        }
+    }
 }
 
 /// Facets of one plane, but for rounding, radians.
 const FLAT: f64 = 1e-6;
-/// Nothing is parted.
-const WHOLE: f64 = 4.0;
 
 impl Maker<'_> {
     fn bodies(&self, reader: &mut Reader, raw: &RawSupport) -> Vec<Support> {
@@ -127,7 +138,10 @@ impl Maker<'_> {
                     point: form.frame.transform_point3(DVec3::ZERO),
                     normal: form.frame.transform_vector3(DVec3::Z),
                 }),
-                parts: forms::parts(&mesh, form.crease),
+                parts: match form.crease {
+                    Some(crease) => forms::parts(&mesh, crease),
+                    None => vec![0; mesh.faces.len()],
+                },
             },
             name: form.name,
             layer: Some(layer),
@@ -146,12 +160,13 @@ impl Maker<'_> {
             defaults::BODY_THICKNESS,
         )?;
         Some(Form {
-            name: name?,
-            mesh: forms::plate(width, height, thickness),
-            frame: frame(reader, &raw.at, &raw.facing, &raw.lean)?,
             flat: true,
-            crease: WHOLE,
-            depth: &raw.depth,
+            ..Form::whole(
+                name?,
+                forms::plate(width, height, thickness),
+                frame(reader, &raw.at, &raw.facing, &raw.lean)?,
+                &raw.depth,
+            )
         })
     }
 
@@ -188,12 +203,13 @@ impl Maker<'_> {
             let turned = DMat4::from_rotation_y(angle(k));
             let moved = DMat4::from_translation(DVec3::new(at.x, 0.0, at.y));
             Form {
-                name: name.clone(),
-                mesh: forms::plate(width, height, thickness),
-                frame: whole * moved * turned,
                 flat: true,
-                crease: WHOLE,
-                depth: &raw.depth,
+                ..Form::whole(
+                    name.clone(),
+                    forms::plate(width, height, thickness),
+                    whole * moved * turned,
+                    &raw.depth,
+                )
             }
         };
         Some((0..count).map(strip).collect())
@@ -208,12 +224,13 @@ impl Maker<'_> {
         let rise = self.or(reader, &raw.rise, "rise", rise)?;
         let going = self.or(reader, &raw.going, "going", going)?;
         Some(Form {
-            name: name?,
-            mesh: forms::stairs(steps?.0, width, rise, going),
-            frame: frame(reader, &raw.at, &raw.facing, &Field::Missing)?,
-            flat: false,
-            crease: FLAT,
-            depth: &raw.depth,
+            crease: Some(FLAT),
+            ..Form::whole(
+                name?,
+                forms::stairs(steps?.0, width, rise, going),
+                frame(reader, &raw.at, &raw.facing, &Field::Missing)?,
+                &raw.depth,
+            )
         })
     }
 
@@ -242,14 +259,12 @@ impl Maker<'_> {
             );
             return None;
         }
-        Some(Form {
-            name: name?,
-            mesh: forms::groove(width, height, thickness, opening, deep),
-            frame: frame(reader, &raw.at, &raw.facing, &raw.lean)?,
-            flat: false,
-            crease: WHOLE,
-            depth: &raw.depth,
-        })
+        Some(Form::whole(
+            name?,
+            forms::groove(width, height, thickness, opening, deep),
+            frame(reader, &raw.at, &raw.facing, &raw.lean)?,
+            &raw.depth,
+        ))
     }
 
     fn wave<'r>(&self, reader: &mut Reader, raw: &'r RawWave) -> Option<Form<'r>> {
@@ -304,14 +319,12 @@ impl Maker<'_> {
                 .push(error_at(&at, text).help("a larger `thickness`, or other heights"));
             return None;
         }
-        Some(Form {
-            name: name?,
+        Some(Form::whole(
+            name?,
             mesh,
-            frame: frame(reader, &raw.at, &raw.facing, &raw.lean)?,
-            flat: false,
-            crease: WHOLE,
-            depth: &raw.depth,
-        })
+            frame(reader, &raw.at, &raw.facing, &raw.lean)?,
+            &raw.depth,
+        ))
     }
 
     fn mesh<'r>(&self, reader: &mut Reader, raw: &'r RawBody) -> Option<Form<'r>> {
@@ -322,40 +335,29 @@ impl Maker<'_> {
             .map_or(1.0, |(u, _)| placing::unit(*u).0);
         let (placing, _) = placing::placing(reader, &raw.place)?;
         let crease = match &raw.creases {
-            Field::Missing => WHOLE,
-            field => reader
-                .within(field, "creases", defaults::CREASES)?
-                .0
-                .to_radians(),
+            Field::Missing => None,
+            field => Some(reader.within(field, "creases", defaults::CREASES)?.0),
         };
+        let crease = crease.map(f64::to_radians);
         let loaded =
             (self.read)(file).and_then(|bytes| crate::formats::load_model(file, &bytes, false));
-        let mesh = match loaded {
-            Ok(loaded) => {
-                // Whether it is sound is found below: warnings with advice for models would only repeat it.
-                let repairs = loaded.warnings.into_iter().filter(|w| w.help.is_empty());
-                reader.problems.extend(repairs.map(|mut w| {
-                    w.place.get_or_insert(Place::Scene(file_span.clone()));
-                    w
-                }));
-                loaded.value
-            }
-            Err(mut problem) => {
-                problem.place.get_or_insert(Place::Scene(file_span));
-                reader.problems.push(problem);
-                return None;
-            }
-        };
-        // A support does not turn to an eye: without `facing` its front looks as it does in the file.
-        let ahead = DVec2::from(defaults::FACING).extend(0.0) * defaults::LARGEST;
-        let mesh = mesh.transformed(placing.matrix(&mesh, unit, ahead));
+        let loaded = reader.read(loaded, &file_span)?;
+        // Whether it is sound is found below: warnings with advice for models would only repeat it.
+        let repairs = loaded.warnings.into_iter().filter(|w| w.help.is_empty());
+        let repairs = repairs.map(|w| placed(w, &file_span));
+        reader.problems.extend(repairs);
+        // A support does not turn to an eye.
+        let placing = placing.or_facing(defaults::FACING.into());
+        let matrix = placing.matrix(&loaded.value, unit, DVec3::ZERO);
+        let mesh = loaded.value.transformed(matrix);
         Some(Form {
-            name: name?,
-            mesh: self.solid(reader, mesh, &raw.thickness, &file_span)?,
-            frame: DMat4::IDENTITY,
-            flat: false,
             crease,
-            depth: &raw.depth,
+            ..Form::whole(
+                name?,
+                self.solid(reader, mesh, &raw.thickness, &file_span)?,
+                DMat4::IDENTITY,
+                &raw.depth,
+            )
         })
     }
 

@@ -12,7 +12,6 @@ use super::region::{self, Room};
 use super::resolve::{Purpose, ReadFile};
 use super::spanned::Field;
 use super::supports::{Entry, Supports, some_entries};
-use crate::diag::Place;
 use crate::planner::{Adjustment, Brief};
 use crate::scene::Printer;
 use crate::support::Support;
@@ -105,14 +104,8 @@ fn file_of(
     depth: &Wish,
     around: &Around,
 ) -> Option<Included> {
-    match (around.read)(file) {
-        Ok(bytes) => included(reader, file, bytes, depth, around),
-        Err(mut problem) => {
-            problem.place.get_or_insert(Place::Scene(span.clone()));
-            reader.problems.push(problem);
-            None
-        }
-    }
+    let bytes = reader.read((around.read)(file), span)?;
+    included(reader, file, bytes, depth, around)
 }
 
 /// Pillars that are to be found.

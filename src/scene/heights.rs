@@ -4,7 +4,6 @@ use super::defaults;
 use super::raw::RawImage;
 use super::reader::{Reader, Span, error_at};
 use super::resolve::ReadFile;
-use crate::diag::Place;
 use exmex::{Express, FlatEx};
 
 /// Height over the face, millimetres, at x to the right of its middle and y above its lower edge, millimetres.
@@ -57,21 +56,13 @@ pub fn image(
     reader.need(&raw.to, "to", "this Image", span);
     let from = reader.length(&raw.from, "from").map_or(0.0, |(v, _)| v);
     let (to, _) = reader.length(&raw.to, "to")?;
-    let pixmap = match read(file) {
-        Ok(bytes) => tiny_skia::Pixmap::decode_png(&bytes),
-        Err(mut problem) => {
-            problem.place.get_or_insert(Place::Scene(file_span));
-            reader.problems.push(problem);
-            return None;
-        }
-    };
-    let pixmap = match pixmap {
+    let bytes = reader.read(read(file), &file_span)?;
+    let pixmap = match tiny_skia::Pixmap::decode_png(&bytes) {
         Ok(pixmap) => pixmap,
         Err(error) => {
             let text = format!("the image cannot be read: {error}");
-            reader
-                .problems
-                .push(error_at(&file_span, text).help("a PNG is wanted"));
+            let problem = error_at(&file_span, text).help("a PNG is wanted");
+            reader.problems.push(problem);
             return None;
         }
     };

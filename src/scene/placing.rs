@@ -55,6 +55,17 @@ pub fn unit(unit: RawUnit) -> (f64, &'static str) {
 }
 
 impl Placing {
+    /// The same, looking along `way` where it would turn to an eye.
+    pub fn or_facing(self, way: DVec2) -> Self {
+        match self {
+            Placing::Fit(fit) => Placing::Fit(Fit {
+                facing: fit.facing.or(Some(way)),
+                ..fit
+            }),
+            matrix => matrix,
+        }
+    }
+
     /// The matrix from the file's coordinates to millimetres for an eye.
     ///
     /// `unit` is millimetres per unit of the file. A matrix is taken as written: it includes the unit.

@@ -33,6 +33,12 @@ pub fn warning_at(span: &Span, message: impl Into<String>) -> Diagnostic {
     Diagnostic::warning(message).at(Place::Scene(span.clone()))
 }
 
+/// A problem that points at `span` unless it knows a better place.
+pub fn placed(mut problem: Diagnostic, span: &Span) -> Diagnostic {
+    problem.place.get_or_insert(Place::Scene(span.clone()));
+    problem
+}
+
 impl<'a> Reader<'a> {
     pub fn new(text: &'a str, what: &'static str) -> Self {
         Self {
@@ -51,6 +57,12 @@ impl<'a> Reader<'a> {
             .saturating_sub(self.text.as_ptr() as usize)
             .min(self.text.len());
         start..(start + spanned.length).min(self.text.len())
+    }
+
+    /// What became of a file that the scene names at `span`.
+    pub fn read<T>(&mut self, done: Result<T, Diagnostic>, span: &Span) -> Option<T> {
+        done.map_err(|problem| self.problems.push(placed(problem, span)))
+            .ok()
     }
 
     pub fn error(&mut self, span: &Span, message: impl Into<String>) {

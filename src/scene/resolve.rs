@@ -9,10 +9,10 @@ use super::document::{self, Document};
 use super::forest::{self, Around};
 use super::placing::{self, Placing};
 use super::raw::{List, RawModel, RawScene, RawView};
-use super::reader::{Reader, Span, error_at, nearest, printable, short};
+use super::reader::{Reader, Span, error_at, nearest, placed, printable, short};
 use super::spanned::Field;
 use super::{defaults, lexer, marks, names, options};
-use crate::diag::{Diagnostic, Place, Severity, Warned};
+use crate::diag::{Diagnostic, Severity, Warned};
 use crate::mesh::{Original, TriMesh};
 use crate::planner::Adjustment;
 use crate::scene::Scene;
@@ -246,27 +246,18 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
 fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     let parsed = read(&model.file)
         .and_then(|bytes| crate::formats::load_original(&model.file, &bytes, false));
-    let at_name = |mut problem: Diagnostic, span: &Span| {
-        problem.place.get_or_insert(Place::Scene(span.clone()));
-        problem
+    let Some(loaded) = reader.read(parsed, &model.file_span) else {
+        return;
     };
-    match parsed {
-        Err(problem) => reader.problems.push(at_name(problem, &model.file_span)),
-        Ok(warned) => {
-            reader.problems.extend(
-                warned
-                    .warnings
-                    .into_iter()
-                    .map(|w| at_name(w, &model.file_span)),
-            );
-            let loaded = warned.value;
-            let Model { name, file, .. } = &*model;
-            let marks = marks::marks(reader, &model.regions, &loaded, name, file);
-            model.marks = Arc::new(marks);
-            model.mesh = Some(loaded.mesh);
-            model.original = Some(Arc::new(loaded.original));
-        }
-    }
+    let warnings = loaded.warnings.into_iter();
+    let warnings = warnings.map(|w| placed(w, &model.file_span));
+    reader.problems.extend(warnings);
+    let loaded = loaded.value;
+    let Model { name, file, .. } = &*model;
+    let marks = marks::marks(reader, &model.regions, &loaded, name, file);
+    model.marks = Arc::new(marks);
+    model.mesh = Some(loaded.mesh);
+    model.original = Some(Arc::new(loaded.original));
 }
 
 fn drafts(

@@ -198,10 +198,8 @@ fn groups(standing: &[Solid], numbered: &[usize]) -> Result<Vec<Vec<usize>>, Boo
     for ((a, b), _) in pairs.iter().zip(met).filter(|(_, met)| *met) {
         sets.join(*a as u32, *b as u32);
     }
-    let (count, number) = sets.numbers();
-    let mut groups = vec![Vec::new(); count];
-    (0..numbered.len()).for_each(|k| groups[number[k] as usize].push(k));
-    Ok(groups)
+    let positions = |set: Vec<u32>| set.into_iter().map(|k| k as usize).collect();
+    Ok(sets.members().into_iter().map(positions).collect())
 }
 
 /// One pillar, or several whose reliefs meet, with pegs.

@@ -1,19 +1,17 @@
 //! Supports that are no pillars: what their layers promise, found by rays at the finished solid and the bare one.
 
-use super::shapes::ball;
+use super::shapes::{Outcome, Setting, ball};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::load_model;
 use pillarforest::geom::ImagePlane;
-use pillarforest::groups::{groups, layer_in};
+use pillarforest::groups::layer_in;
 use pillarforest::mesh::{Solid, TriMesh};
-use pillarforest::mimic::depths;
-use pillarforest::relief::relief;
 use pillarforest::scene::{self, Scene};
 use pillarforest::support::{HULL_MM, Slab};
-use pillarforest::viewmap::{SupportField, Target, view_map};
+use pillarforest::viewmap::SupportField;
 
 /// A ball of 20 mm before the support, seen from in front and a little above.
 fn text(supports: &str) -> String {
@@ -202,12 +200,13 @@ fn outlines_lie_on_the_support_where_they_are_to() {
             "Plate(width: 80, height: 70, thickness: 8, at: (0, 20, 0), depth: (front: 4, back: 3, outline: {outline}))"
         ));
         let (view, field) = (&scene.views[0], SupportField::new(&scene.supports));
-        let plane = ImagePlane::looking_at(view.eye, view.look_at);
-        let target = Target::new(view.target(), &plane).expect("in front of the eye");
-        let map = view_map(plane, &target, &field).expect("a view map");
-        let groups = groups("front", &map, &target, &field).expect("groups");
-        let depths = depths(scene.energy, &target, &map, &groups).expect("depths");
-        let relief = relief(&map, &target, &field, &groups, &depths);
+        let setting = Setting {
+            eye: view.eye,
+            look_at: view.look_at,
+            model: view.target(),
+            supports: scene.supports.clone(),
+        };
+        let Outcome { map, relief, .. } = setting.solved(scene.energy);
         let slab = Slab::new(&scene.supports[0], view.eye).expect("a layer");
         let (mut ends, mut off) = (0, 0.0f64);
         for (c, cell) in map.cells.iter().enumerate() {

@@ -1,19 +1,16 @@
 //! The paper's variants of its energy, and what it compares itself with: identities, closed forms, one program in two forms.
 
-use crate::shapes::{MIDDLE, Setting, ball, bumpy, prism, wavy};
+use crate::shapes::{MIDDLE, Outcome, Setting, ball, bumpy, prism, wavy};
 use glam::{DMat3, DVec2, DVec3};
 use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::geom::solid_angle;
-use pillarforest::groups::{Groups, groups};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
-    CurvatureForm, CurvatureOptions, Depths, Ending, Energy, FaceWeight, GradientOptions,
-    NormalOptions, depths,
+    CurvatureForm, CurvatureOptions, Ending, Energy, FaceWeight, GradientOptions, NormalOptions,
 };
-use pillarforest::relief::{Relief, relief};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap};
+use pillarforest::viewmap::SupportField;
 
 const PAPER: CurvatureOptions = CurvatureOptions::PAPER;
 const ABSOLUTE: CurvatureOptions = CurvatureOptions {
@@ -86,29 +83,6 @@ fn on_plate(model: TriMesh, thickness: f64) -> Setting {
     setting
 }
 
-struct Outcome {
-    target: Target,
-    map: ViewMap,
-    groups: Groups,
-    depths: Depths,
-    relief: Relief,
-}
-
-fn solved(setting: &Setting, energy: Energy) -> Outcome {
-    let (target, map) = setting.seen();
-    let field = SupportField::new(&setting.supports);
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    let depths = depths(energy, &target, &map, &groups).expect("depths");
-    let relief = relief(&map, &target, &field, &groups, &depths);
-    Outcome {
-        target,
-        map,
-        groups,
-        depths,
-        relief,
-    }
-}
-
 /// A box of 1538 vertices about a point: six sides of 16 x 16 squares, an edge towards the eye, a little tilted.
 fn divided_box(half: f64) -> TriMesh {
     let n: i32 = 16;
@@ -152,7 +126,7 @@ fn divided_box(half: f64) -> TriMesh {
 fn iterating_converges_on_the_box() {
     let setting = on_plate(divided_box(12.0), 6.0);
     assert_eq!(setting.model.vertices.len(), 1538);
-    let depths = solved(&setting, Energy::Curvature(ITERATED)).depths;
+    let depths = setting.solved(Energy::Curvature(ITERATED)).depths;
     let iterated = depths.iterated.expect("rounds");
     assert_eq!(iterated.ending, Ending::Converged, "{iterated:?}");
     assert_eq!(iterated.kept, iterated.rounds.len());
@@ -176,15 +150,12 @@ fn an_iteration_that_fails_says_so_and_keeps_its_best_round() {
         hidden_weight: 0.01,
         ..ITERATED
     };
-    let linearised = solved(
-        &setting,
-        Energy::Curvature(CurvatureOptions {
-            iterate: 0,
-            ..light
-        }),
-    );
+    let linearised = setting.solved(Energy::Curvature(CurvatureOptions {
+        iterate: 0,
+        ..light
+    }));
     assert_eq!(linearised.depths.iterated, None);
-    let depths = solved(&setting, Energy::Curvature(light)).depths;
+    let depths = setting.solved(Energy::Curvature(light)).depths;
     let iterated = depths.iterated.expect("rounds");
     assert_ne!(iterated.ending, Ending::Converged, "{iterated:?}");
     assert!(iterated.warning().is_some());
@@ -257,7 +228,7 @@ fn with_a_loose_layer_the_model_itself_is_the_result() {
     // The attenuation of gradients changes the surface whatever the layer.
     let all = energies().into_iter();
     for energy in all.filter(|e| !matches!(e, Energy::Gradient(_))) {
-        let outcome = solved(&Setting::roomy(), energy);
+        let outcome = Setting::roomy().solved(energy);
         let seen = outcome.map.cells.iter().filter_map(|c| c.face);
         let corners = seen.flat_map(|f| outcome.target.mesh.faces[f as usize]);
         let s = corners.map(|v| outcome.depths.s[v as usize]);
@@ -272,7 +243,7 @@ fn every_energy_keeps_every_bound() {
     for setting in [Setting::tight(), plate] {
         let field = SupportField::new(&setting.supports);
         for energy in energies() {
-            let outcome = solved(&setting, energy);
+            let outcome = setting.solved(energy);
             let (map, groups, relief) = (&outcome.map, &outcome.groups, &outcome.relief);
             let outside = bound_violation_mm(map, &field, groups, relief);
             assert!(outside < 1e-6, "{energy:?}: {outside} mm");
@@ -288,7 +259,7 @@ fn every_energy_keeps_every_bound() {
 fn every_variant_is_the_optimum_of_its_own_energy() {
     let setting = on_plate(bumpy(12.0), 4.0);
     let variants = [PAPER, ABSOLUTE, BENT];
-    let outcomes = variants.map(|o| solved(&setting, Energy::Curvature(o)));
+    let outcomes = variants.map(|o| setting.solved(Energy::Curvature(o)));
     let hidden = hidden(&outcomes[0]);
     for (own, o) in variants.iter().enumerate() {
         let value = |s: &[f64]| {
@@ -339,7 +310,7 @@ fn the_conic_form_has_the_same_optimum() {
         on_plate(divided_box(12.0), 6.0),
     ];
     for setting in settings {
-        let [plain, conic] = [PAPER, CONIC].map(|o| solved(&setting, Energy::Curvature(o)).depths);
+        let [plain, conic] = [PAPER, CONIC].map(|o| setting.solved(Energy::Curvature(o)).depths);
         let [a, b] = [&plain, &conic].map(|d| d.solved.optimality.objective);
         assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
         let proof = conic.solved.optimality;
@@ -357,7 +328,7 @@ fn the_conic_form_has_the_same_optimum() {
 fn linear_compression_is_a_linear_function_of_depth() {
     let thickness = 3.0;
     let setting = on_plate(ball(MIDDLE, 12.0, 24), thickness);
-    let outcome = solved(&setting, Energy::Linear);
+    let outcome = setting.solved(Energy::Linear);
     let (near, far) = (300.0 - thickness * 5.0 / 7.0, 300.0 + thickness * 2.0 / 7.0);
     // Of every bound: the model's depth there, and the relief's.
     let points: Vec<(f64, f64)> = outcome
@@ -414,7 +385,7 @@ fn ridge(left: f64, right: f64) -> TriMesh {
 #[test]
 fn gradients_that_are_not_attenuated_give_linear_compression() {
     let setting = on_plate(ridge(0.4, 0.2), 2.0);
-    let [linear, gradient] = [Energy::Linear, gradient(0.0)].map(|e| solved(&setting, e));
+    let [linear, gradient] = [Energy::Linear, gradient(0.0)].map(|e| setting.solved(e));
     let depths =
         |o: &Outcome| -> Vec<f64> { o.relief.depth.iter().flatten().flatten().copied().collect() };
     let apart = depths(&linear).into_iter().zip(depths(&gradient));
@@ -426,7 +397,7 @@ fn gradients_that_are_not_attenuated_give_linear_compression() {
 fn gradients_are_attenuated_by_their_logarithm() {
     let (steep, gentle) = (0.8, 0.1);
     for alpha in [0.0, 3.0, 20.0] {
-        let outcome = solved(&on_plate(ridge(steep, gentle), 1.0), gradient(alpha));
+        let outcome = on_plate(ridge(steep, gentle), 1.0).solved(gradient(alpha));
         let depth = |x: f64| {
             let near = |v: &DVec3| (v.x - x).abs() < 1e-9 && (v.z - MIDDLE.z).abs() < 1e-9;
             let v = outcome

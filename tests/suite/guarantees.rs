@@ -1,20 +1,18 @@
 //! What is promised on every ray: bounds, depth orders, optimality, independence of the file's order.
 
-use crate::shapes::{MIDDLE, Setting, ball, wavy};
+use crate::shapes::{MIDDLE, Outcome, Setting, ball, wavy};
 use glam::{DVec2, DVec3};
 use ndarray::{Array1, Array2};
 use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
 use pillarforest::geom::barycentric;
-use pillarforest::groups::{Groups, groups};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::{TriMesh, gate};
 use pillarforest::mimic::{
-    CurvatureOptions, Depths, Energy, FaceWeight, NormalOptions, Program, Row, RowKind, depths,
-    optimality, solve,
+    CurvatureOptions, Energy, FaceWeight, NormalOptions, Program, Row, RowKind, optimality, solve,
 };
-use pillarforest::relief::{Relief, relief};
+use pillarforest::relief::Relief;
 use pillarforest::support::{Datum, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap};
+use pillarforest::viewmap::SupportField;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
@@ -37,29 +35,6 @@ fn contoured(datum: Datum) -> Setting {
         layer.datum = datum;
     }
     setting
-}
-
-struct Solved {
-    target: Target,
-    map: ViewMap,
-    groups: Groups,
-    depths: Depths,
-    relief: Relief,
-}
-
-fn solved(setting: &Setting, energy: Energy) -> Solved {
-    let (target, map) = setting.seen();
-    let field = SupportField::new(&setting.supports);
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    let depths = depths(energy, &target, &map, &groups).expect("depths");
-    let relief = relief(&map, &target, &field, &groups, &depths);
-    Solved {
-        target,
-        map,
-        groups,
-        depths,
-        relief,
-    }
 }
 
 /// A fixed sequence of numbers between 0 and 1.
@@ -98,7 +73,7 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
         (ENERGIES[0], Datum::Surface),
     ] {
         let setting = contoured(datum);
-        let solved = solved(&setting, energy);
+        let solved = setting.solved(energy);
         let clamp = solved.relief.clamp_mm;
         assert!(clamp < 1e-6, "{energy:?}: clamped by {clamp} mm");
         let field = SupportField::new(&setting.supports);
@@ -156,8 +131,8 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
 }
 
 /// Rays through random points of random faces on which two sheets of one support have changed places, of all with two.
-fn inverted(setting: &Setting, solved: &Solved, rays: usize) -> (usize, usize) {
-    let Solved {
+fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) {
+    let Outcome {
         target,
         map,
         groups,
@@ -216,7 +191,7 @@ fn inverted(setting: &Setting, solved: &Solved, rays: usize) -> (usize, usize) {
 #[test]
 fn sheets_keep_their_order_on_every_ray() {
     let setting = contoured(Datum::Plane);
-    let with = solved(&setting, ENERGIES[0]);
+    let with = setting.solved(ENERGIES[0]);
     assert_eq!(with.depths.solved.broken, 0, "{:?}", with.depths.solved);
     assert_eq!(order_inversions(&with.map, &with.target, &with.relief), 0);
     let (wrong, met) = inverted(&setting, &with, 3000);
@@ -227,7 +202,7 @@ fn sheets_keep_their_order_on_every_ray() {
         ordering: false,
         reweight: 0,
     });
-    let without = solved(&setting, free);
+    let without = setting.solved(free);
     let (wrong, met) = inverted(&setting, &without, 3000);
     assert!(wrong > 10, "{wrong} of {met}");
     assert!(order_inversions(&without.map, &without.target, &without.relief) > 10);
@@ -236,7 +211,7 @@ fn sheets_keep_their_order_on_every_ray() {
 #[test]
 fn a_certificate_finds_what_is_wrong_with_a_relief() {
     let setting = Setting::tight();
-    let solved = solved(&setting, ENERGIES[0]);
+    let solved = setting.solved(ENERGIES[0]);
     let field = SupportField::new(&setting.supports);
     let violation =
         |relief: &Relief| bound_violation_mm(&solved.map, &field, &solved.groups, relief);
@@ -297,7 +272,7 @@ fn the_order_of_a_file_does_not_matter() {
     assert_ne!(shuffled(&setting.model, 3).faces, setting.model.faces);
     let reliefs = models.map(|model| {
         setting.model = model;
-        ENERGIES.map(|energy| solved(&setting, energy).relief)
+        ENERGIES.map(|energy| setting.solved(energy).relief)
     });
     for relief in &reliefs[1..] {
         for (a, b) in relief.iter().zip(&reliefs[0]) {

@@ -1,18 +1,16 @@
 //! The mathematics, by identities: solid angles, unbounded and bounded optima, invariance, the contents of layers.
 
-use crate::shapes::{EYE, MIDDLE, Setting, ball, pillar};
+use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::geom::{barycentric, orient, solid_angle};
-use pillarforest::groups::{Groups, anchor, groups};
+use pillarforest::groups::{anchor, groups};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
-    CurvatureOptions, Depths, Energy, FaceWeight, NormalOptions, Program, Row, RowKind, SolveError,
-    depths, solve,
+    CurvatureOptions, Energy, FaceWeight, NormalOptions, Program, Row, RowKind, SolveError, solve,
 };
-use pillarforest::relief::{Relief, relief};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap};
+use pillarforest::viewmap::{SupportField, ViewMap};
 
 const NORMAL: Energy = Energy::Normal(NormalOptions {
     weight: FaceWeight::Area,
@@ -20,15 +18,6 @@ const NORMAL: Energy = Energy::Normal(NormalOptions {
     reweight: 0,
 });
 const CURVATURE: Energy = Energy::Curvature(CurvatureOptions::PAPER);
-
-/// All that the stages up to the relief make of a setting.
-struct Outcome {
-    target: Target,
-    map: ViewMap,
-    groups: Groups,
-    depths: Depths,
-    relief: Relief,
-}
 
 impl Setting {
     /// Everything moved by a similarity that keeps z upright; `scale` is its factor.
@@ -70,21 +59,6 @@ impl Setting {
             look_at: by.transform_point3(self.look_at),
             model: self.model.transformed(by),
             supports: self.supports.iter().map(support).collect(),
-        }
-    }
-
-    fn solved(&self, energy: Energy) -> Outcome {
-        let (target, map) = self.seen();
-        let field = SupportField::new(&self.supports);
-        let groups = groups("test", &map, &target, &field).expect("groups");
-        let depths = depths(energy, &target, &map, &groups).expect("depths");
-        let relief = relief(&map, &target, &field, &groups, &depths);
-        Outcome {
-            target,
-            map,
-            groups,
-            depths,
-            relief,
         }
     }
 }

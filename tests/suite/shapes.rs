@@ -5,7 +5,10 @@ use manifold_rust::linalg::Vec3;
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{Error, MeshGL64};
 use pillarforest::geom::ImagePlane;
+use pillarforest::groups::{Groups, groups};
 use pillarforest::mesh::TriMesh;
+use pillarforest::mimic::{Depths, Energy, depths};
+use pillarforest::relief::{Relief, relief};
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::view::{PlacedModel, View};
 use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
@@ -229,6 +232,31 @@ impl Setting {
         let map = view_map(plane, &target, &SupportField::new(&self.supports)).expect("a map");
         (target, map)
     }
+
+    /// All stages up to the relief.
+    pub fn solved(&self, energy: Energy) -> Outcome {
+        let (target, map) = self.seen();
+        let field = SupportField::new(&self.supports);
+        let groups = groups("test", &map, &target, &field).expect("groups");
+        let depths = depths(energy, &target, &map, &groups).expect("depths");
+        let relief = relief(&map, &target, &field, &groups, &depths);
+        Outcome {
+            target,
+            map,
+            groups,
+            depths,
+            relief,
+        }
+    }
+}
+
+/// All that the stages up to the relief make of a setting.
+pub struct Outcome {
+    pub target: Target,
+    pub map: ViewMap,
+    pub groups: Groups,
+    pub depths: Depths,
+    pub relief: Relief,
 }
 
 /// A closed ball with waves on it, finer than the pillars and coarser than its faces.

@@ -241,18 +241,15 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     for [front, back] in problem.conditions.iter().filter_map(sides) {
         blocks.join(front, back);
     }
-    let mut members: Vec<(u32, usize)> = (0..n)
-        .filter(|i| areas[*i] > 0.0)
-        .map(|i| (blocks.root(i as u32), i))
-        .collect();
-    members.sort_unstable();
-    let block = |b: &[(u32, usize)]| {
-        let total: f64 = b.iter().map(|m| areas[m.1]).sum();
-        let terms: Vec<_> = b.iter().map(|m| (m.1, areas[m.1] / total)).collect();
+    let block = |set: Vec<u32>| {
+        let all = set.into_iter().map(|i| i as usize);
+        let b: Vec<usize> = all.filter(|i| *i < n && areas[*i] > 0.0).collect();
+        let total: f64 = b.iter().map(|i| areas[*i]).sum();
+        let terms: Vec<_> = b.iter().map(|i| (*i, areas[*i] / total)).collect();
         let missing: f64 = terms.iter().map(|(i, a)| a * (1.0 - start[*i])).sum();
-        (terms, missing / problem.unit)
+        (!terms.is_empty()).then_some((terms, missing / problem.unit))
     };
-    members.chunk_by(|x, y| x.0 == y.0).map(block).collect()
+    blocks.members().into_iter().filter_map(block).collect()
 }
 
 /// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
