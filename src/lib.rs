@@ -25,6 +25,7 @@
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
+//! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //!
 //! # Symbols
@@ -96,3 +97,5 @@ pub mod report;
 pub mod scene;
 
 pub mod compile;
+
+pub mod figures;

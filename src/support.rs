@@ -193,6 +193,14 @@ impl Slab {
         }
     }
 
+    /// How far a point at this depth lies behind the datum as the layer measures it, millimetres; negative in front.
+    pub fn behind_datum(&self, direction: DVec3, surface: f64, depth: f64) -> f64 {
+        match self.layer.datum {
+            Datum::Plane => depth * direction.dot(self.towards) - self.distance,
+            Datum::Surface => (depth / surface - 1.0) * self.measure,
+        }
+    }
+
     /// Whether outlines of the model are to lie on the datum.
     pub fn draws(&self) -> bool {
         self.layer.hull

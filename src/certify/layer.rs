@@ -4,7 +4,7 @@
 //! affine in the image (see `groups`), so that cell corners decide for the whole cell; sides' ends decide for sides where
 //! sheets meet. Neither the program's rows nor its solution are used.
 
-use crate::groups::{Groups, anchor, layer_in};
+use crate::groups::{Groups, anchor, layer_in, surface_in};
 use crate::mimic::TOGETHER_MM;
 use crate::relief::Relief;
 use crate::viewmap::{SupportField, Target, ViewMap};
@@ -33,6 +33,28 @@ pub fn bound_violation_mm(
         }
     }
     worst
+}
+
+/// How far reliefs come before their datum and go behind it, millimetres as their layers measure it.
+pub fn reach_mm(
+    map: &ViewMap,
+    field: &SupportField,
+    groups: &Groups,
+    relief: &Relief,
+) -> (f64, f64) {
+    let mut reach = (0.0f64, 0.0f64);
+    for (c, cell) in map.cells.iter().enumerate() {
+        let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
+        let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
+            continue;
+        };
+        for (q, z) in map.triangle(c).into_iter().zip(depths) {
+            let surface = surface_in(map, field, &slab, c, q);
+            let behind = slab.behind_datum(map.plane.direction(q), surface, z);
+            reach = (reach.0.max(-behind), reach.1.max(behind));
+        }
+    }
+    reach
 }
 
 /// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same

@@ -1,5 +1,6 @@
 //! What each command does, in order.
 
+use super::figures;
 use super::files::{self, SceneFiles};
 use super::messages::{Messages, Source};
 use super::plan::{self, Search};
@@ -65,6 +66,7 @@ pub fn run(cli: &Cli) -> u8 {
             files,
             *json || cli.global.diagnostics == Style::Json,
         ),
+        Command::Figures(args) => figures::run(&messages, &cli.global, args),
         Command::Schema => say(&scene::schema()),
         Command::Completions { shell } => completions(*shell),
     }
@@ -173,12 +175,7 @@ pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<L
         path: format!("{}{changed}", args.scene.display()),
         text,
     };
-    let library = args.models.clone().or_else(|| {
-        std::env::var_os("PILLARFOREST_MODELS")
-            .filter(|v| !v.is_empty())
-            .map(PathBuf::from)
-    });
-    let files = SceneFiles::of(&args.scene, library.as_deref(), args.allow_outside);
+    let files = SceneFiles::of(&args.scene, libraries(&args.models), args.allow_outside);
     match resolve(&source.text, &|name| files.read(name)) {
         Err(problems) => stop(&problems, Some(&source)),
         Ok(Warned { value, warnings }) => {
@@ -194,6 +191,15 @@ pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<L
             })
         }
     }
+}
+
+/// The folders that the user named, or else the one that the surroundings name.
+pub fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
+    if !named.is_empty() {
+        return named.to_vec();
+    }
+    let variable = std::env::var_os("PILLARFOREST_MODELS").filter(|v| !v.is_empty());
+    variable.map(PathBuf::from).into_iter().collect()
 }
 
 impl Loaded {
@@ -233,7 +239,7 @@ fn compile(
         return Err(WRONG_INPUT);
     }
     if args.timings {
-        eprint!("{}", reporter.timings());
+        reporter.tell(messages.is_json());
     }
     Ok((build, reporter))
 }

@@ -71,7 +71,7 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
 /// Where the files that a scene names are looked for.
 pub struct SceneFiles {
     folder: PathBuf,
-    library: Option<PathBuf>,
+    libraries: Vec<PathBuf>,
     /// Whether the user lets the scene name files anywhere.
     anywhere: bool,
     /// Those read so far.
@@ -80,14 +80,14 @@ pub struct SceneFiles {
 
 impl SceneFiles {
     /// The files of a scene; `anywhere` lets it name files outside of its folder.
-    pub fn of(scene: &Path, library: Option<&Path>, anywhere: bool) -> Self {
+    pub fn of(scene: &Path, libraries: Vec<PathBuf>, anywhere: bool) -> Self {
         let folder = scene
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
             .unwrap_or(Path::new("."));
         Self {
             folder: folder.to_path_buf(),
-            library: library.map(Path::to_path_buf),
+            libraries,
             anywhere,
             read: RefCell::default(),
         }
@@ -113,11 +113,10 @@ impl SceneFiles {
     fn find(&self, name: &str) -> Result<(PathBuf, PathBuf), Diagnostic> {
         well_named(name)?;
         let named = Path::new(name);
-        if let (Some(library), Some(file)) = (&self.library, named.file_name()) {
-            let found = library.join(file);
-            if found.exists() {
-                return Ok((found.clone(), found));
-            }
+        let file = named.file_name();
+        let places = self.libraries.iter().filter_map(|l| Some(l.join(file?)));
+        if let Some(found) = places.into_iter().find(|p| p.exists()) {
+            return Ok((found.clone(), found));
         }
         if !self.anywhere && climbs(named) {
             return Err(outside("the file lies outside the scene's folder"));
@@ -162,10 +161,15 @@ impl SceneFiles {
         if let Some(guess) = nearest(&wanted, there.iter().map(String::as_str)) {
             problem = problem.help(format!("did you mean \"{}\"?", escaped(guess)));
         }
-        match &self.library {
-            Some(library) => problem.help(format!("it is not in \"{}\" (--models) either", escaped(&library.display().to_string()))),
-            None => problem.help("models kept elsewhere are found with `--models DIR` or the variable PILLARFOREST_MODELS"),
+        if self.libraries.is_empty() {
+            return problem.help("models kept elsewhere are found with `--models DIR` or the variable PILLARFOREST_MODELS");
         }
+        let shown = |l: &PathBuf| format!("\"{}\"", escaped(&l.display().to_string()));
+        let shown: Vec<String> = self.libraries.iter().map(shown).collect();
+        problem.help(format!(
+            "it is not in {} (--models) either",
+            shown.join(" or ")
+        ))
     }
 }
 

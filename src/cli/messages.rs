@@ -45,6 +45,11 @@ impl Messages {
         }
     }
 
+    /// Whether programs read them.
+    pub fn is_json(&self) -> bool {
+        self.style == Style::Json
+    }
+
     /// Prints all; tells whether the run must stop.
     pub fn print(&self, list: &[Diagnostic], source: Option<&Source>) -> bool {
         let mut out = String::new();

@@ -5,6 +5,7 @@
 //! does not hold that a build promises.
 
 mod commands;
+mod figures;
 mod files;
 mod messages;
 mod plan;
@@ -143,6 +144,8 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Make the figures of the paper again: scenes, pictures, numbers, and a page with what the paper says beside them
+    Figures(FigureArgs),
     /// Print the whole scene language with its defaults
     Schema,
     /// Print a completion script for a shell
@@ -157,9 +160,9 @@ pub struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
     pub scene: PathBuf,
-    /// Where to look first for models and layouts, by file name [env: PILLARFOREST_MODELS]
+    /// Where to look first for models and layouts, by file name; several are tried in turn [env: PILLARFOREST_MODELS]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub models: Option<PathBuf>,
+    pub models: Vec<PathBuf>,
     /// Let the scene name files outside of its folder: absolute, by `..` or through links
     #[arg(long)]
     pub allow_outside: bool,
@@ -169,9 +172,31 @@ pub struct SceneArgs {
     /// Threads to use [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Print how long every stage took
+    /// Print how long every stage took, and the largest memory; with `--diagnostics json` as one object
     #[arg(long)]
     pub timings: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+pub struct FigureArgs {
+    /// Which of them, as `--list` names them [default: all]
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// Say which there are, and make none
+    #[arg(long)]
+    pub list: bool,
+    /// Where the scenes lie
+    #[arg(long, default_value = "scenes/paper", value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub scenes: PathBuf,
+    /// Where to look first for models, by file name, before those beside the scenes (../models)
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub models: Vec<PathBuf>,
+    /// Directory for the page and all files
+    #[arg(short, long, default_value = "out/figures", value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+    /// Threads to use [default: all cores]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
 }
 
 #[derive(Args, Clone, Debug)]

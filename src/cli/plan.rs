@@ -50,7 +50,7 @@ pub fn run(
         Err(problems) => return loaded.failed(messages, &problems),
     };
     if args.timings {
-        eprint!("{}", reporter.timings());
+        reporter.tell(messages.is_json());
     }
     let shortfalls = compile::shortfalls(&loaded.scene, &plan);
     if !shortfalls.is_empty() {

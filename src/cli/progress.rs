@@ -81,24 +81,52 @@ impl Reporter {
         self.start.elapsed()
     }
 
-    /// One line per stage: when it began and how long until the next one did.
-    pub fn timings(&self) -> String {
+    /// Prints how long every stage took and the largest memory so far: a line each, or one JSON object.
+    pub fn tell(&self, json: bool) {
+        let (stages, all) = self.stages();
+        let peak = peak_mb();
+        if json {
+            let stages: Vec<_> = stages
+                .iter()
+                .map(|(name, seconds)| serde_json::json!({ "stage": name, "seconds": seconds }))
+                .collect();
+            let told =
+                serde_json::json!({ "timings": stages, "seconds": all, "peak_memory_mb": peak });
+            eprintln!("{told}");
+            return;
+        }
+        for (name, seconds) in stages {
+            eprintln!("{seconds:>8.2} s  {name}");
+        }
+        eprintln!("{all:>8.2} s  in all");
+        if let Some(peak) = peak {
+            eprintln!("{peak:>8.0} MB largest memory");
+        }
+    }
+
+    /// Every stage with its seconds, from when it began until the next one did; and those since the start.
+    fn stages(&self) -> (Vec<(String, f64)>, f64) {
         let state = self
             .state
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner());
         let end = self.start.elapsed();
         let next = state.stages.iter().skip(1).map(|(_, t)| *t).chain([end]);
-        let lines = state.stages.iter().zip(next).map(|((name, from), to)| {
-            format!(
-                "{:>8.2} s  {name}\n",
-                to.saturating_sub(*from).as_secs_f64()
-            )
-        });
-        lines
-            .chain([format!("{:>8.2} s  in all\n", end.as_secs_f64())])
-            .collect()
+        let stages = state
+            .stages
+            .iter()
+            .zip(next)
+            .map(|((name, from), to)| (name.clone(), to.saturating_sub(*from).as_secs_f64()));
+        (stages.collect(), end.as_secs_f64())
     }
+}
+
+/// The largest memory of this process so far, megabytes, where the system tells (Linux).
+fn peak_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes / 1024.0)
 }
 
 fn bar() -> ProgressBar {

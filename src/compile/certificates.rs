@@ -6,7 +6,7 @@ use super::print::print_checks;
 use super::sight::Sight;
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::{Finished, sighted};
-use crate::certify::layer::{bound_violation_mm, order_inversions};
+use crate::certify::layer::{bound_violation_mm, order_inversions, reach_mm};
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Claim, Contest, contested, settle};
 use crate::diag::Diagnostic;
@@ -95,7 +95,10 @@ fn certificate(
     let models = coverage.models.iter().zip(&sighted.lost_sr);
     let mut unseen = coverage.warnings(&sight.view.name);
     unseen.extend(sighted.warnings(&sight.view.name));
+    let (front, back) = reach_mm(&sight.map, built.field, &sight.groups, relief);
     let certificate = CertificateReport {
+        relief_front_mm: front,
+        relief_back_mm: back,
         bound_violation_mm: bound_violation_mm(&sight.map, built.field, &sight.groups, relief),
         clamp_mm: relief.clamp_mm,
         order_inversions: turned + shape.depths.solved.broken,

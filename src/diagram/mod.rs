@@ -4,6 +4,7 @@
 //! The forest is drawn at true scale (one unit of the SVG is one millimetre); eyes far outside of it stand at the rim
 //! with their distance written beside them, and a small overview shows them to scale.
 
+pub mod chart;
 pub mod curves;
 pub mod drawing;
 mod eyes;

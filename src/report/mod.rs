@@ -1,6 +1,6 @@
 //! `report.json`, and [`html`] for people: what was built and how good it is.
 //!
-//! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it unless asked for.
+//! Every number has its unit in its name. The same scene gives the same bytes: times are not part of it.
 //! The `views` list can be read back by any program that casts rays at the forest: it names each model's file and matrix.
 
 pub mod html;
@@ -44,9 +44,6 @@ pub struct Report {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub print: Vec<PrintCheck>,
     pub warnings: Vec<String>,
-    /// Only on request: it differs from run to run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub timings: Option<Vec<Timing>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -123,6 +120,9 @@ pub struct CertificateReport {
     /// millimetres.
     pub bound_violation_mm: f64,
     pub clamp_mm: f64,
+    /// How far the relief comes before its datum and goes behind it, as its layer measures it: millimetres.
+    pub relief_front_mm: f64,
+    pub relief_back_mm: f64,
     /// Places where a farther sheet of the model comes before a nearer one.
     pub order_inversions: usize,
     /// Proof that the depths are the optimum of their program; none where they are not meant to be one.
@@ -237,12 +237,6 @@ pub struct Check {
     /// What was found, with units.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub found: String,
-}
-
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Timing {
-    pub stage: String,
-    pub seconds: f64,
 }
 
 impl Report {

@@ -9,6 +9,7 @@ mod cli;
 mod dense;
 mod diagram;
 mod energies;
+mod figures;
 mod files;
 mod formats;
 mod golden;

@@ -1,0 +1,231 @@
+//! Reliefs on supports of all kinds: Figs 3, 4, 12 to 17.
+
+use super::workshop::{LEAN, Workshop, with};
+use super::{Figure, Findings, Made};
+
+/// What a certificate may be off by for rounding, millimetres.
+const EXACT_MM: f64 = 1e-6;
+/// Of a model's solid angle: what hairs at the edges of reliefs may cost.
+const WHOLE: f64 = 0.999;
+
+pub const STAIRS: Figure = Figure {
+    name: "fig03",
+    paper: "Fig 3",
+    title: "An owl on a staircase",
+    statement: "An owl is embedded into the steps of a staircase. The layer is so thin that the stairs can be used as before.",
+    make: stairs,
+};
+
+fn stairs(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let torn = shop.build("with steps", "fig03-stairs", &[])?;
+    let never = with(&["energy=Normal(steps: Never)"], &LEAN);
+    let whole = shop.build("in one piece", "fig03-stairs", &never)?;
+    for (name, made) in [("with steps", &torn), ("in one piece", &whole)] {
+        let groups = made.sum("/groups")?;
+        found.case(name, made, &[("groups", groups), layer(made)?.0])?;
+    }
+    within(found, &torn, 8.0, 0.0)?;
+    let groups = torn.sum("/groups")?;
+    found.claim(
+        groups >= 5.0,
+        format!("{groups} groups lie on the treads and risers of six steps"),
+    );
+    appears(found, &torn)?;
+    found.note("Steps are ours: the surface tears where the eye cannot see it. In one piece is what the paper's constraints allow.");
+    Ok(())
+}
+
+pub const GROOVE: Figure = Figure {
+    name: "fig04",
+    paper: "Fig 4",
+    title: "A dragon's head carved into a V",
+    statement: "A dragon's head is carved up to 6 mm into a V-shaped volume and stands out of it by no more than 1 mm; both bounds are hard.",
+    make: groove,
+};
+
+fn groove(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let made = shop.build("carved", "fig04-groove", &[])?;
+    let (front, back) = layer(&made)?;
+    found.case("carved", &made, &[front, back])?;
+    within(found, &made, 1.0, 6.0)?;
+    appears(found, &made)?;
+    Ok(())
+}
+
+pub const FREE: Figure = Figure {
+    name: "fig12",
+    paper: "Fig 12",
+    title: "An imp whose arm and ear are free: no height field",
+    statement: "Only the vertices of the visual hull are held on the baseplate, one arm and one ear are not held at all. What comes out is no height field, which shows when the eye moves.",
+    make: free,
+};
+
+fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let made = shop.build("arm and ear free", "fig12-free", &[])?;
+    let inversions = made.sum("/certificate/order_inversions")?;
+    let parts = made.number("/solid/parts")?;
+    found.case(
+        "arm and ear free",
+        &made,
+        &[("order_inversions", inversions), ("parts", parts)],
+    )?;
+    found.picture(
+        "from the side to the other side",
+        made.path("turntable.png"),
+    );
+    found.claim(
+        inversions == 0.0,
+        format!("{inversions} places where sheets of the surface cross"),
+    );
+    found.claim(
+        parts == 1.0 && made.keeps_promises(),
+        format!("a closed solid of {parts} part, free of self-intersection"),
+    );
+    appears(found, &made)?;
+    Ok(())
+}
+
+pub const WAVE: Figure = Figure {
+    name: "fig13",
+    paper: "Fig 13",
+    title: "A fish in a wavy sea",
+    statement: "A fish stays in a layer of 4 mm of a wavy surface. From its eye it is surprisingly close to the model, from elsewhere the illusion is gone.",
+    make: wave,
+};
+
+fn wave(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let whole = shop.build("in one piece", "fig13-wave", &[])?;
+    let allowed = with(&["energy=Normal(steps: Allowed())"], &LEAN);
+    let torn = shop.build("with steps", "fig13-wave", &allowed)?;
+    for (name, made) in [("in one piece", &whole), ("with steps", &torn)] {
+        let (front, back) = layer(made)?;
+        found.case(name, made, &[front, back])?;
+    }
+    within(found, &whole, 2.0, 2.0)?;
+    appears(found, &whole)?;
+    Ok(())
+}
+
+pub const FOREST: Figure = Figure {
+    name: "fig15",
+    paper: "Figs 14 and 15",
+    title: "Four models in a forest of pillars",
+    statement: "Four models are hidden in a forest of pillars: each appears from one viewpoint, from anywhere else nothing is recognised. A plan shows the range of pillars that each viewpoint sees.",
+    make: forest,
+};
+
+fn forest(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let made = shop.build("forest", "../four-creatures", &[])?;
+    let camouflage = made.report["camouflage"].as_array().map_or(0, Vec::len);
+    let half = (0..camouflage)
+        .filter_map(|v| made.number(&format!("/camouflage/{v}/half_deg")).ok())
+        .fold(0.0, f64::max);
+    let groups = made.sum("/groups")?;
+    let coverage = made.mean("/certificate/coverage")?;
+    found.case(
+        "forest",
+        &made,
+        &[
+            ("groups", groups),
+            ("coverage_share", coverage),
+            ("half_likeness_most_deg", half),
+        ],
+    )?;
+    found.picture("plan", made.path("plan.png"));
+    found.picture("from elsewhere", made.path("camouflage.png"));
+    appears(found, &made)?;
+    found.claim(
+        0.0 < half && half < 20.0,
+        format!("half of every likeness is lost within {half:.1} degrees"),
+    );
+    Ok(())
+}
+
+pub const STRIPS: Figure = Figure {
+    name: "fig16",
+    paper: "Fig 16",
+    title: "One head on five strips",
+    statement: "Five views of one head (80k vertices), turned by 22.5 degrees from one to the next, on five plane strips, each no thicker than 2 mm.",
+    make: strips,
+};
+
+fn strips(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let made = shop.build("five heads", "fig16-strips", &[])?;
+    let groups = made.sum("/groups")?;
+    let vertices = made.sum("/vertices")?;
+    let (front, back) = layer(&made)?;
+    found.case(
+        "five heads",
+        &made,
+        &[("groups", groups), ("vertices", vertices), front, back],
+    )?;
+    let thick = front.1 + back.1;
+    found.claim(
+        thick <= 2.0 + EXACT_MM && made.outside_mm()? <= EXACT_MM,
+        format!("the reliefs are {thick:.3} mm thick, and 2 are allowed"),
+    );
+    found.claim(groups == 5.0, format!("{groups} groups, one a strip"));
+    appears(found, &made)?;
+    Ok(())
+}
+
+pub const HERD: Figure = Figure {
+    name: "fig17",
+    paper: "Fig 17",
+    title: "A herd on one plate",
+    statement: "A scene of several separate objects becomes one thin relief; the visual hull of every cow lies on the baseplate.",
+    make: herd,
+};
+
+fn herd(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
+    let made = shop.build("herd", "fig17-herd", &[])?;
+    let groups = made.sum("/groups")?;
+    let (front, back) = layer(&made)?;
+    found.case("herd", &made, &[("groups", groups), front, back])?;
+    found.claim(
+        made.outside_mm()? <= EXACT_MM,
+        "every outline lies on the plate to 0.05 mm, wherever it is seen against it",
+    );
+    found.claim(groups >= 5.0, format!("{groups} groups of five cows"));
+    appears(found, &made)?;
+    Ok(())
+}
+
+/// How far reliefs come before their datum and go behind it.
+pub fn layer(made: &Made) -> Result<((&'static str, f64), (&'static str, f64)), String> {
+    let front = made.most("/certificate/relief_front_mm")?;
+    let back = made.most("/certificate/relief_back_mm")?;
+    Ok((("relief_front_mm", front), ("relief_back_mm", back)))
+}
+
+fn within(found: &mut Findings, made: &Made, front: f64, back: f64) -> Result<(), String> {
+    let ((_, out), (_, inside)) = layer(made)?;
+    let outside = made.outside_mm()?;
+    let holds = outside <= EXACT_MM && out <= front + EXACT_MM;
+    // Reliefs that only stand on their support begin a little inside.
+    let bedded = back.max(crate::support::SUNK_MM);
+    found.claim(
+        holds && inside <= bedded + EXACT_MM,
+        format!("the relief comes {out:.3} mm before its support (allowed: {front}) and goes {inside:.3} mm into it (allowed: {bedded})"),
+    );
+    Ok(())
+}
+
+/// That every eye sees its models, whole.
+fn appears(found: &mut Findings, made: &Made) -> Result<(), String> {
+    let coverage = made.mean("/certificate/reaching")?;
+    let error = made.error_deg()?;
+    let views = made.of_views("/certificate/reaching")?.len();
+    let eyes = match views {
+        1 => "the eye sees".to_owned(),
+        n => format!("{n} eyes see"),
+    };
+    found.claim(
+        made.keeps_promises() && coverage >= WHOLE,
+        format!(
+            "{eyes} {:.2} % of the models, with normals off by {error:.1} degrees on average",
+            100.0 * coverage
+        ),
+    );
+    Ok(())
+}
