@@ -14,7 +14,7 @@ pub const SCALE: Figure = Figure {
 
 fn scale(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let on = lean(shop, "with the factor", "fig05-scale", "Curvature()")?;
-    let off = "Curvature(scale_invariant: false)";
+    let off = "Curvature(scale_invariant: false, group_scales: false)";
     let off = lean(shop, "without it", "fig05-scale", off)?;
     found.case("with the factor", &on, &[])?;
     found.counter_case("without it", &off, &[])?;
@@ -23,7 +23,7 @@ fn scale(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         b > 1.1 * a,
         format!("normals are off by {b:.1} degrees without the factor and by {a:.1} with it"),
     );
-    found.note("The model stands behind its plate, so that its image there is less than half as large: where both sizes are nearly the same the factor makes little difference.");
+    found.note("The model stands far behind its plate, so that it is less than half as large there. Without the factor bounds are absolute too: a scale for the whole group, as of Eq 11, would make up for its lack, and where both sizes are alike there is little to see.");
     Ok(())
 }
 

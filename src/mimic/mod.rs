@@ -81,6 +81,8 @@ pub struct CurvatureOptions {
     pub ordering: bool,
     /// With the term `lambda_i / lambda0_i` of Eq 7; without it (Fig 5) compressed parts are to have the model's Laplacians.
     pub scale_invariant: bool,
+    /// Whether groups have scales `mu` (Eq 11); without them bounds are absolute (Eq 10).
+    pub group_scales: bool,
     /// Keep the division by the mean curvature `H0_i` (Eq 7) that Eq 9 cancels (Fig 7).
     pub mean_curvature: bool,
     /// Most rounds with the Laplacian of the deformed surface (Eq 6, Fig 6); only if scale invariant.
@@ -94,6 +96,7 @@ impl CurvatureOptions {
         hidden_weight: 0.1,
         ordering: true,
         scale_invariant: true,
+        group_scales: true,
         mean_curvature: false,
         iterate: 0,
         form: CurvatureForm::Quadratic,

@@ -23,6 +23,14 @@ pub struct Row {
     pub limit: f64,
 }
 
+impl Row {
+    /// The same with all variables from `first` on held at 0.
+    pub fn without(mut self, first: usize) -> Self {
+        self.terms.retain(|t| t.0 < first);
+        self
+    }
+}
+
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Program {

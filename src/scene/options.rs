@@ -67,6 +67,7 @@ fn curvature(reader: &mut Reader, raw: &RawCurvature) -> CurvatureOptions {
         hidden_weight: hidden_weight.map_or(under.hidden_weight, |(v, _)| v),
         ordering: flag(reader, &raw.ordering, under.ordering),
         scale_invariant,
+        group_scales: flag(reader, &raw.group_scales, under.group_scales),
         mean_curvature: flag(reader, &raw.mean_curvature, under.mean_curvature),
         iterate: iterate.map_or(under.iterate, |(v, _)| v),
         form,

@@ -160,7 +160,8 @@ raw! {
         least: f64, highest: f64, tolerance: f64, most: u32, price: f64, narrowest: f64, prefer: RawPrefer,
     }
     struct RawCurvature, "`Curvature(hidden_weight: 0.1)`" {
-        hidden_weight: f64, ordering: bool, scale_invariant: bool, mean_curvature: bool, iterate: u32, form: RawCurvatureForm,
+        hidden_weight: f64, ordering: bool, scale_invariant: bool, group_scales: bool, mean_curvature: bool, iterate: u32,
+        form: RawCurvatureForm,
     }
     struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }

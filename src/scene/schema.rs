@@ -379,6 +379,7 @@ fn other_sections() -> Vec<Section> {
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
             field("scale_invariant", "true | false", defaults::CURVATURE.scale_invariant, "parts may change their scale; false: the paper's Eq 7 without its last factor"),
+            field("group_scales", "true | false", defaults::CURVATURE.group_scales, "pieces on different supports may be scaled on their own (Eq 11); false: bounds are absolute (Eq 10)"),
             field("mean_curvature", "true | false", defaults::CURVATURE.mean_curvature, "keep the division by the mean curvature (Eq 7), so that flat parts count as much as curved ones"),
             field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
             field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),

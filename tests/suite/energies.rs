@@ -303,6 +303,26 @@ fn every_variant_is_the_optimum_of_its_own_energy() {
 }
 
 #[test]
+fn absolute_bounds_give_one_group_the_same_relief() {
+    let setting = on_plate(bumpy(12.0), 3.0);
+    let absolute = CurvatureOptions {
+        group_scales: false,
+        ..PAPER
+    };
+    let [free, held] = [PAPER, absolute].map(|o| setting.solved(Energy::Curvature(o)));
+    assert_eq!(free.groups.groups.len(), 1);
+    assert_eq!(held.depths.mu, [1.0]);
+    let scaled_back = free.depths.s.iter().map(|s| s / free.depths.mu[0]);
+    let apart = scaled_back
+        .zip(&held.depths.s)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    // Of a layer 0.01 wide.
+    assert!(apart < 1e-5, "{apart}");
+    assert!(held.relief.clamp_mm < 1e-6);
+}
+
+#[test]
 fn the_conic_form_has_the_same_optimum() {
     let settings = [
         Setting::tight(),

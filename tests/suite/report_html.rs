@@ -55,6 +55,8 @@ fn certificate() -> CertificateReport {
     CertificateReport {
         bound_violation_mm: 1.25e-9,
         clamp_mm: 2.5e-8,
+        relief_front_mm: 4.75,
+        relief_back_mm: 1.625,
         order_inversions: 41,
         proof: Some(Proof {
             duality_gap_rel: 5.37e-8,

@@ -7,7 +7,8 @@
 //! together: the paper pins one vertex, but then the result depends on which.
 //!
 //! Variants: without the term `lambda_i / lambda0_i` of Eq 7 (Fig 5) the energy is not scale invariant, so that there is nothing
-//! to be fixed by a gauge: it determines every depth itself, of every component. With the mean curvature (Eq 7 against Eq 9,
+//! to be fixed by a gauge: it determines every depth itself, of every component. Without scales of groups bounds are absolute (Eq 10) and
+//! fix what they reach. With the mean curvature (Eq 7 against Eq 9,
 //! Fig 7) rows are divided by `H0_i`, never by less than a share of its mean (see [`sheet`]). `iterate` and the conic form (appendix, Eq
 //! 17) have their own modules.
 
@@ -102,8 +103,11 @@ impl Problem<'_> {
         let unused = (0..n).filter(|i| !self.is_used(*i));
         unused.for_each(|i| quadratic.square(i, 1.0));
         let (quadratic, factor) = quadratic.finish_with_factor();
-        let tangent =
-            |c: &Condition, s: &[f64]| row(&c.tightened(MARGIN * self.unit), s, start, self.unit);
+        let scaled = self.options.group_scales;
+        let tangent = |c: &Condition, s: &[f64]| {
+            let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
+            Some(if scaled { row } else { row.without(n) })
+        };
         let first = self.conditions[..self.rows].iter();
         let mut program = Program {
             variables,
@@ -138,12 +142,17 @@ impl Problem<'_> {
         };
         let (u, solved) = solve_lazily(&mut program, self.conditions, &meaning)?;
         let (s, _) = depths(&u);
-        let mu = scales(self.groups, &[], &s, |_| 1.0);
+        let mu = match scaled {
+            true => scales(self.groups, &[], &s, |_| 1.0),
+            false => vec![1.0; self.groups.groups.len()],
+        };
         let solved = Solved {
-            gauge: if self.options.scale_invariant {
-                "the area-weighted mean relative depth is 1"
-            } else {
-                "nothing: the energy knows the model's size and determines every depth"
+            gauge: match (self.options.scale_invariant, scaled) {
+                (true, true) => "the area-weighted mean relative depth is 1",
+                (true, false) => "the bounds, which are absolute",
+                (false, _) => {
+                    "nothing: the energy knows the model's size and determines every depth"
+                }
             },
             ..solved
         };
@@ -225,7 +234,8 @@ fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
         .collect()
 }
 
-/// One equality a block: the area-weighted mean of `s` is 1. The unknowns are what `s` differs from `start`, in units.
+/// One equality a block: the area-weighted mean of `s` is 1. The unknowns are what `s` differs from `start`, in units. Blocks that
+/// absolute bounds hold need none.
 fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     let areas = &problem.model.areas;
     let n = areas.len();
@@ -241,6 +251,9 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     for [front, back] in problem.conditions.iter().filter_map(sides) {
         blocks.join(front, back);
     }
+    let held = |set: &[u32]| {
+        !problem.options.group_scales && set.last().is_some_and(|last| *last as usize >= n)
+    };
     let block = |set: Vec<u32>| {
         let all = set.into_iter().map(|i| i as usize);
         let b: Vec<usize> = all.filter(|i| *i < n && areas[*i] > 0.0).collect();
@@ -249,7 +262,8 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
         let missing: f64 = terms.iter().map(|(i, a)| a * (1.0 - start[*i])).sum();
         (!terms.is_empty()).then_some((terms, missing / problem.unit))
     };
-    blocks.members().into_iter().filter_map(block).collect()
+    let blocks = blocks.members().into_iter().filter(|set| !held(set));
+    blocks.filter_map(block).collect()
 }
 
 /// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
