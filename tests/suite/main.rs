@@ -28,6 +28,7 @@ mod render;
 mod report_html;
 mod scene;
 mod scenes;
+mod sections;
 mod shapes;
 mod split;
 mod steps;
