@@ -17,6 +17,7 @@ mod chains;
 mod labels;
 mod sheet;
 mod slice;
+mod window;
 
 pub use sheet::groups_sheet;
 pub use slice::Outline;

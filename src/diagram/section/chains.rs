@@ -40,6 +40,11 @@ pub fn chains(section: &Section, value: impl Fn(&Stretch) -> Value) -> Vec<Chain
     chains
 }
 
+/// The surface before it is cut.
+pub fn surface(s: &Stretch) -> Value {
+    Some((None, s.surface))
+}
+
 /// Rooms between the bounds of every group, scaled by `scale` of the group: polygons.
 pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Chain> {
     let side = |far: bool| {
