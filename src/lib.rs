@@ -22,11 +22,12 @@
 //! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
 //! | depths | [`surface::surface`] | [`surface::Surface`]: the optimised surface with the input's attributes, for other programs |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
+//! | depths and relief | [`diagram::section::section`] | [`diagram::section::Section`]: groups cut open through the eye, their bounds, scales and pieces |
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
 //! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
-//! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
+//! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //!
 //! # Symbols
 //!

@@ -5,14 +5,17 @@
 //! The figures use one ray through every pixel's centre; the pictures are smoothed by four more where neighbours differ.
 //! Rows run in parallel; the result does not depend on the thread count.
 
+pub mod flash;
 mod light_sheet;
 pub mod lights;
 mod shading;
 mod step_lines;
 mod thumbnail;
+pub mod turntable;
 
 pub use lights::{LightLikeness, light_pictures};
 pub use thumbnail::thumbnail;
+pub use turntable::turntable;
 
 use crate::bvh::Bvh;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};

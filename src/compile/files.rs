@@ -6,6 +6,7 @@ use super::sight::Shape;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
+use crate::diagram::section::groups_sheet;
 use crate::formats::{
     Camera, Metadata, Part, write_3mf, write_glb, write_stl, write_surface_obj, write_surface_ply,
 };
@@ -99,6 +100,20 @@ pub fn surface_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
         files.push(file(path("obj"), write_surface_obj(surface)));
     }
     files
+}
+
+/// The sections that were cut, as SVG and PNG.
+pub fn section_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
+    let views = scene.views.iter().zip(shapes);
+    let sheet = |(view, shape): (&View, &Shape)| {
+        let sheet = groups_sheet(&view.name, shape.section.as_ref()?);
+        let path = |extension| format!("groups-{}.{extension}", view.name);
+        Some([
+            file(path("svg"), sheet.svg().into_bytes()),
+            file(path("png"), sheet.png(scene.output.plan_width)),
+        ])
+    };
+    views.filter_map(sheet).flatten().collect()
 }
 
 fn view_camera(view: &View) -> Camera {

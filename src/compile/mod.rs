@@ -23,9 +23,9 @@ use crate::scene::{Scene, laid_out};
 use crate::viewmap::SupportField;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
-use files::{counts, file, plan_files, printable_files, summary, surface_files};
+use files::{counts, file, plan_files, printable_files, section_files, summary, surface_files};
 use page::page;
-use pictures::{picture_files, pictures};
+use pictures::{picture_files, pictures, turntable_file};
 use rayon::prelude::*;
 use sight::{Shape, Sight, see, unsettled};
 use split::{bodies, pieces, remarks, split_files};
@@ -173,7 +173,11 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     let summary = summary(scene, &built.forest, &pictures);
     if goal == Goal::Pictures {
         return Ok(Build {
-            files: picture_files(scene, &pictures, true),
+            files: picture_files(scene, &pictures, true)
+                .into_iter()
+                .chain(section_files(scene, &built.shapes))
+                .chain(turntable_file(&built))
+                .collect(),
             summary,
             warnings,
             ..Build::default()
@@ -194,6 +198,8 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     progress("files", 0.9);
     let mut files = printable_files(scene, &built.forest);
     files.extend(surface_files(scene, &built.shapes));
+    files.extend(section_files(scene, &built.shapes));
+    files.extend(turntable_file(&built));
     if let Some(split) = &split {
         let (pieces, warning) = split_files(scene, split);
         files.extend(pieces);

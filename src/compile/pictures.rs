@@ -3,7 +3,9 @@
 use super::files::file;
 use super::sight::Shape;
 use super::{Built, OutputFile};
-use crate::render::{LightLikeness, Likeness, ViewPictures, light_pictures, view_pictures};
+use crate::render::{
+    LightLikeness, Likeness, ViewPictures, light_pictures, turntable, view_pictures,
+};
 use crate::scene::Scene;
 use crate::view::View;
 
@@ -34,6 +36,15 @@ pub fn pictures(built: &Built) -> Vec<Pictures> {
         .zip(&built.shapes)
         .map(of_view)
         .collect()
+}
+
+/// `turntable.png`, if it is wanted.
+pub fn turntable_file(built: &Built) -> Option<OutputFile> {
+    let output = &built.scene.output;
+    let view = built.scene.views.first().filter(|_| output.turntable)?;
+    let solid = built.forest.whole.mesh();
+    let strip = turntable(view, solid, &built.bvh, output.picture_size);
+    Some(file("turntable.png", strip))
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.

@@ -5,6 +5,7 @@ use crate::certify::Seen;
 use crate::certify::coverage::{Coverage, coverage};
 use crate::contest::{Claim, Loss};
 use crate::diag::Diagnostic;
+use crate::diagram::section::{Section, section};
 use crate::geom::ImagePlane;
 use crate::groups::{Groups, groups, without};
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
@@ -33,6 +34,8 @@ pub struct Shape {
     pub steps: Option<(Vec<StepLine>, StepSummary)>,
     /// The surface before it was cut, if it is wanted.
     pub surface: Option<Surface>,
+    /// The groups cut open, if that is wanted.
+    pub section: Option<Section>,
 }
 
 /// Warnings of iterations that did not converge.
@@ -132,23 +135,31 @@ impl Sight<'_> {
             ..
         } = self;
         let explained = |e| vec![self.explain(e, field)];
-        let wanted = scene.output.surface;
+        let (wanted, opened) = (scene.output.surface, scene.output.groups);
+        let whole = |torn: bool| (&target.mesh, torn);
         let steps = scene.steps.as_ref().filter(|_| target.free.is_empty());
         if let (Energy::Normal(options), Some(steps)) = (scene.energy, steps) {
             let torn = torn(steps, options, target, map, field, groups);
             // Its rows belong to the cut mesh: only the kind of failure is told.
             let torn = torn.map_err(|e| explained(e.without_row()))?;
+            let seen = (&torn.map, &torn.target, field);
+            let relief = relief(&torn.map, &torn.target, field, &torn.groups, &torn.depths);
             return Ok(Shape {
                 surface: wanted.then(|| torn_surface(self.view, &torn)),
-                relief: relief(&torn.map, &torn.target, field, &torn.groups, &torn.depths),
+                section: opened
+                    .then(|| section(seen, &torn.groups, &torn.depths, &relief, whole(true))),
+                relief,
                 depths: torn.depths,
                 steps: Some((torn.lines, torn.summary)),
             });
         }
         let depths = depths(scene.energy, target, map, groups).map_err(explained)?;
+        let relief = relief(map, target, field, groups, &depths);
+        let seen = (map, target, field);
         Ok(Shape {
             surface: wanted.then(|| surface(self.view, groups, &depths)),
-            relief: relief(map, target, field, groups, &depths),
+            section: opened.then(|| section(seen, groups, &depths, &relief, whole(false))),
+            relief,
             depths,
             steps: None,
         })

@@ -1,4 +1,4 @@
-//! The plan: who sees which pillar, from above.
+//! Diagrams. The plan: who sees which pillar, from above. Sections are in [`section`].
 //!
 //! Takes views and supports, gives a display list; [`Plan::svg`] and [`Plan::png`] show the same page.
 //! The forest is drawn at true scale (one unit of the SVG is one millimetre); eyes far outside of it stand at the rim
@@ -15,6 +15,7 @@ mod map;
 mod page;
 pub mod planning;
 pub mod raster;
+pub mod section;
 mod sight;
 mod svg;
 

@@ -36,7 +36,7 @@ pub fn blank(width: u32, height: u32) -> Pixmap {
     pixmap
 }
 
-/// Puts a square of colours (sRGB, 0 to 255, by rows) into a picture; `corner` is where its top left pixel goes.
+/// Puts colours (sRGB, 0 to 255, by rows of `side` pixels) into a picture; `corner` is where the top left pixel goes.
 pub fn put_square(
     pixmap: &mut Pixmap,
     corner: (usize, usize),

@@ -3,7 +3,9 @@
 use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
 use crate::diagram::lettering::{Face, width};
 use crate::diagram::raster;
-use crate::render::lights::{DARK, LightLikeness, Lit, SIDE, SPAN, SUNS_DEG, Stage};
+use crate::render::lights::{
+    DARK, FLASH_LAMP, LightLikeness, Lit, SIDE, SKY_LAMP, SPAN, SUNS_DEG, Stage,
+};
 use crate::render::shading::{self, Rgb};
 use crate::render::{QUIET, TEXT};
 use crate::view::View;
@@ -11,7 +13,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 /// Lights, and columns.
-const COLUMNS: usize = SUNS_DEG.len() + 1;
+const COLUMNS: usize = SUNS_DEG.len() + 2;
 
 /// Model and forest in every light.
 type Panels = [Rgb; 2 * COLUMNS];
@@ -62,10 +64,19 @@ fn column(k: usize) -> usize {
     GAP + k * (PANEL + GAP)
 }
 
+/// The lamp of a column.
+fn lamp(column: usize) -> usize {
+    match column.checked_sub(SUNS_DEG.len()) {
+        None => 2 * column,
+        Some(0) => SKY_LAMP,
+        Some(_) => FLASH_LAMP,
+    }
+}
+
 /// Colours of one pixel, the model's panels first. Suns are the left ones.
 fn panels(lit: &[Option<Lit>; 2]) -> Panels {
     std::array::from_fn(|panel| {
-        let lamp = 2 * (panel % COLUMNS);
+        let lamp = lamp(panel % COLUMNS);
         lit[panel / COLUMNS].map_or(shading::BACKGROUND, |lit| {
             let brightness = DARK + SPAN * lit[lamp].shade();
             shading::scaled(shading::PLASTER, brightness / (DARK + SPAN))
@@ -116,6 +127,7 @@ fn captions(drawing: &mut Drawing, view: &View, figures: &[LightLikeness]) {
 fn name(f: &LightLikeness) -> String {
     match f.elevation_deg {
         Some(elevation) => format!("sun at {elevation:.0}°, from the left"),
+        None if f.light == "flash" => "flash, from the left".into(),
         None => "overcast sky".into(),
     }
 }

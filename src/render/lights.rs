@@ -1,4 +1,4 @@
-//! Real light: how a view looks under a sun and under an overcast sky, with the shadows that are cast.
+//! Real light: how a view looks under a sun, under an overcast sky and in a flash, with the shadows that are cast.
 //!
 //! Takes a view and the finished forest with base and all pillars. The image wanted is that of the model standing free in
 //! the same light, with its own cast shadows; the image got is that of the forest. Gives figures for every light and a sheet
@@ -15,11 +15,15 @@
 //!   around `p` that is `(1 + n_z) / 2`: 1 for a level surface, 1/2 for a wall, 0 for one that looks down. The share of it
 //!   that arrives is taken over directions `w_k` spread evenly:
 //!   `s(p) = (1 + n_z) / 2  sum_k V(p, w_k) max(0, n . w_k) / sum_k max(0, n . w_k)`.
+//! - flash at `f`, with `d = |f - p|` and `l = (f - p) / d`: `s(p) = V(p, f) max(0, n . l) (d0 / d)^2`, and never brighter than paper.
+//!   `d0` is its distance from the vertex of the *model* nearest to it, for the forest too: both are photographed with one exposure.
+//!   Where it stands: [`flash`](crate::render::flash).
 //!
 //! The ground below the forest is left out: it gives no light and takes none.
 //!
 //! Let `h` be the horizontal unit vector from the model to the eye and `r` the eye's right. The sun at the elevation `e` stands
 //! 45 degrees to the left or to the right of the eye: `l = cos e (h -+ r) / sqrt 2 + sin e z`. Figures are the mean of both.
+//! The flash stands to the left only, as in the paper's Fig 19.
 //!
 //! # Figures
 //!
@@ -29,6 +33,7 @@
 use crate::bvh::Bvh;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
+use crate::render::flash::Flash;
 use crate::render::{camera, light_sheet};
 use crate::view::View;
 use glam::{DVec2, DVec3};
@@ -58,7 +63,7 @@ pub const DARK: f64 = 30.0;
 pub const SPAN: f64 = 217.0;
 
 /// The shade that reads as 255: where there is no forest at all.
-const PAPER: f64 = (255.0 - DARK) / SPAN;
+pub const PAPER: f64 = (255.0 - DARK) / SPAN;
 
 /// Variance of a shade below which it counts as the same everywhere: rounding leaves 1e-32, one facet in ten thousand pixels 1e-9.
 const FLAT: f64 = 1e-18;
@@ -66,7 +71,7 @@ const FLAT: f64 = 1e-18;
 /// How a view looks in one light: the forest against the model. Means of the two sides for a sun.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LightLikeness {
-    /// `sun_15`, `sun_30`, `sun_60` or `overcast`.
+    /// `sun_15`, `sun_30`, `sun_60`, `overcast` or `flash`.
     pub light: String,
     /// Of the sun above the horizon, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,16 +87,16 @@ pub struct LightLikeness {
     pub rmse_fitted: f64,
     /// Pearson's, of `w` and `g`; none if either is the same everywhere.
     pub correlation: Option<f64>,
-    /// Share of the pixels that the sun lights on the model, and that face it but lie in a cast shadow on the forest.
+    /// Share of the pixels that the sun or the flash lights on the model, and that face it but lie in a cast shadow on the forest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub false_shadow_share: Option<f64>,
-    /// Share of the pixels that face the sun but lie in a cast shadow on the model, and that the sun lights on the forest.
+    /// Share of the pixels that face it but lie in a cast shadow on the model, and that it lights on the forest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lost_shadow_share: Option<f64>,
 }
 
-/// Measures and draws one view in all lights: a sun of each of [`SUNS_DEG`], then the overcast sky. The picture is a sheet with
-/// a column for each (suns: the left ones), the model above the forest.
+/// Measures and draws one view in all lights: a sun of each of [`SUNS_DEG`], then the overcast sky, then the flash. The picture is
+/// a sheet with a column for each (suns: the left ones), the model above the forest.
 pub fn light_pictures(
     view: &View,
     forest: &TriMesh,
@@ -114,9 +119,11 @@ pub fn light_pictures(
     (figures, sheet)
 }
 
-/// Lamps of a view: a left and a right sun of each elevation, then the sky.
-const LAMPS: usize = 2 * SUNS_DEG.len() + 1;
-pub const SKY_LAMP: usize = LAMPS - 1;
+/// Lamps of a view: a left and a right sun of each elevation, then the sky, then the flash.
+const SUNS: usize = 2 * SUNS_DEG.len();
+pub const SKY_LAMP: usize = SUNS;
+pub const FLASH_LAMP: usize = SUNS + 1;
+const LAMPS: usize = SUNS + 2;
 
 /// What every lamp does at a place.
 pub type Lit = [Term; LAMPS];
@@ -127,7 +134,8 @@ pub struct Stage<'a> {
     plane: ImagePlane,
     /// Tangent of half the field of view.
     half: f64,
-    suns: [DVec3; SKY_LAMP],
+    suns: [DVec3; SUNS],
+    flash: Flash,
     sky: Vec<DVec3>,
     /// For places beside the target, which are drawn but not measured.
     sky_around: Vec<DVec3>,
@@ -142,6 +150,7 @@ impl<'a> Stage<'a> {
             plane,
             half,
             suns: std::array::from_fn(sun),
+            flash: Flash::beside(&plane, bodies[0].mesh, true),
             sky: sky(SKY),
             sky_around: sky(SKY_AROUND),
         }
@@ -178,6 +187,7 @@ impl<'a> Stage<'a> {
                 free: free_skylight(meet.normal),
                 open: middle[b].map_or(1.0, |lit| lit[SKY_LAMP].open),
             };
+            lit[FLASH_LAMP] = self.flash.light(&self.bodies[b], &meet);
             Some(lit)
         })
     }
@@ -195,7 +205,8 @@ impl<'a> Stage<'a> {
         let body = &self.bodies[b];
         std::array::from_fn(|lamp| match self.suns.get(lamp) {
             Some(l) => body.sunlight(meet, *l),
-            None => body.skylight(meet, sky),
+            None if lamp == SKY_LAMP => body.skylight(meet, sky),
+            None => self.flash.light(body, meet),
         })
     }
 }
@@ -213,7 +224,7 @@ pub struct Meet {
 pub struct Term {
     /// Shade if nothing cast a shadow.
     pub free: f64,
-    /// Share of that light that arrives; 1 or 0 for a sun, 1 where there is no light to be kept off.
+    /// Share of that light that arrives; 1 or 0 for a sun and the flash, 1 where there is no light to be kept off.
     pub open: f64,
 }
 
@@ -252,7 +263,7 @@ impl<'a> Body<'a> {
     /// The light of a sun in direction `l` (unit).
     pub fn sunlight(&self, meet: &Meet, l: DVec3) -> Term {
         let free = meet.normal.dot(l).max(0.0);
-        let open = free == 0.0 || !self.blocked(meet, l);
+        let open = free == 0.0 || !self.blocked(meet, l, f64::INFINITY);
         Term {
             free,
             open: f64::from(u8::from(open)),
@@ -266,7 +277,11 @@ impl<'a> Body<'a> {
             let facing = meet.normal.dot(*w);
             if facing > 0.0 {
                 all += facing;
-                got += if self.blocked(meet, *w) { 0.0 } else { facing };
+                got += if self.blocked(meet, *w, f64::INFINITY) {
+                    0.0
+                } else {
+                    facing
+                };
             }
         }
         Term {
@@ -275,10 +290,10 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// `1 - V`, for a direction on the outer side of the facet.
-    fn blocked(&self, meet: &Meet, w: DVec3) -> bool {
+    /// `1 - V`, for a direction on the outer side of the facet and a light so far away.
+    pub fn blocked(&self, meet: &Meet, w: DVec3, distance: f64) -> bool {
         let origin = meet.place + HAIR_MM * (meet.normal + w);
-        self.bvh.blocked(origin, w, f64::INFINITY)
+        self.bvh.blocked(origin, w, distance)
     }
 }
 
@@ -329,7 +344,8 @@ fn figures(pixels: &[[Option<Lit>; 2]]) -> Vec<LightLikeness> {
         lost_shadow_share: None,
         ..of_lamp(SKY_LAMP).named("overcast".into())
     };
-    suns.chain([sky]).collect()
+    let flash = of_lamp(FLASH_LAMP).named("flash".into());
+    suns.chain([sky, flash]).collect()
 }
 
 /// One lamp at one pixel: on the model, and on the forest where it is not missed.

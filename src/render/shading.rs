@@ -59,7 +59,7 @@ pub fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
 }
 
 /// Casts four rays through every pixel that differs from a neighbour, and takes their mean. `N` pictures at once;
-/// `cast` gives all of them at a place in pixels from the top left corner.
+/// `cast` gives all of them at a place in pixels from the top left corner, `size` is their width.
 pub fn smoothed<const N: usize>(
     centres: &[[Rgb; N]],
     size: usize,
@@ -71,7 +71,7 @@ pub fn smoothed<const N: usize>(
             (x > 0).then(|| k - 1),
             (x + 1 < size).then(|| k + 1),
             (y > 0).then(|| k - size),
-            (y + 1 < size).then(|| k + size),
+            (k + size < centres.len()).then(|| k + size),
         ];
         around
             .into_iter()

@@ -100,7 +100,7 @@ pub struct ViewReport {
     /// Rays that the last two figures rest on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rays: Option<usize>,
-    /// How the view looks under suns and under an overcast sky, shadows included.
+    /// How the view looks under suns, under an overcast sky and in a flash, shadows included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights: Option<Vec<LightLikeness>>,
 }

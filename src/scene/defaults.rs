@@ -154,6 +154,8 @@ pub const OUTPUT: Output = Output {
     split: false,
     report_html: true,
     surface: false,
+    groups: false,
+    turntable: false,
     picture_size: 640,
     plan_width: 2000,
 };

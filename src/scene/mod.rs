@@ -97,8 +97,12 @@ pub struct Output {
     pub report_html: bool,
     /// The optimised surfaces, before they are cut and scaled back.
     pub surface: bool,
-    /// Side of one panel of a view picture, pixels.
+    /// A section of every view with its groups' bounds, before and after they are scaled.
+    pub groups: bool,
+    /// The solid from several sides.
+    pub turntable: bool,
+    /// Side of one panel of a view picture and height of the turntable's, pixels.
     pub picture_size: u32,
-    /// Width of plan.png, pixels.
+    /// Width of plan.png and of sections, pixels.
     pub plan_width: u32,
 }

@@ -194,6 +194,8 @@ pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
         split: flag(reader, &raw.split, under.split),
         report_html: flag(reader, &raw.report_html, under.report_html),
         surface: flag(reader, &raw.surface, under.surface),
+        groups: flag(reader, &raw.groups, under.groups),
+        turntable: flag(reader, &raw.turntable, under.turntable),
         picture_size: picture_size.map_or(under.picture_size, |(v, _)| v),
         plan_width: plan_width.map_or(under.plan_width, |(v, _)| v),
     }

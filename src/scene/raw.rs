@@ -167,7 +167,7 @@ raw! {
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
-        report_html: bool, surface: bool, picture_size: u32, plan_width: u32,
+        report_html: bool, surface: bool, groups: bool, turntable: bool, picture_size: u32, plan_width: u32,
     }
 }
 

@@ -398,13 +398,15 @@ fn other_sections() -> Vec<Section> {
             field("forest_glb", "true | false", output.forest_glb, "for viewers, with the eyes as cameras"),
             field("plan", "true | false", output.plan, "plan.svg and plan.png"),
             field("views", "true | false", output.views, "views/<view>.png"),
-            field("lights", "true | false", output.lights, "each view under suns and an overcast sky: views/<view>-lights.png, and figures in report.json"),
+            field("lights", "true | false", output.lights, "each view under suns, an overcast sky and a flash beside the model: views/<view>-lights.png, and figures in report.json"),
             field("camouflage", "true | false", output.camouflage, "how like its model the forest is from elsewhere: camouflage.png and .svg, and figures in report.json"),
             field("split", "true | false", output.split, "plates, pillars one by one and layout.svg, as `build --split`"),
             field("report_html", "true | false", output.report_html, "report.html, the report with all pictures as one page for people"),
             field("surface", "true | false", output.surface, "surface-<view>.ply and .obj: the optimised surface before it is cut and scaled back"),
-            field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, 64 to 4096"),
-            field("plan_width", "count", output.plan_width, "pixels of plan.png, 400 to 8000"),
+            field("groups", "true | false", output.groups, "groups-<view>.svg and .png: a section through the eye with the groups' bounds, the scales mu, the surface and its pieces"),
+            field("turntable", "true | false", output.turntable, "turntable.png: the finished solid from seven sides, -90 to 90 degrees from the first view's eye"),
+            field("picture_size", "count", output.picture_size, "pixels of one panel of a view's picture, and height of the turntable's, 64 to 4096"),
+            field("plan_width", "count", output.plan_width, "pixels of plan.png and groups-<view>.png, 400 to 8000"),
         ]),
     ]
 }

@@ -8,6 +8,7 @@ use pillarforest::compile::{Goal, run};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::ImagePlane;
 use pillarforest::mesh::TriMesh;
+use pillarforest::render::flash::Flash;
 use pillarforest::render::lights::{Body, Meet, SKY, SUNS_DEG, sky, sun};
 use pillarforest::render::{LightLikeness, light_pictures};
 use pillarforest::scene;
@@ -232,7 +233,7 @@ fn a_forest_that_is_the_model_looks_like_it_in_any_light() {
     let view = view("owl", DVec3::new(90.0, -40.0, 25.0), two.clone(), ORANGE);
     let all = figures(&view, &two);
     let names: Vec<&str> = all.iter().map(|f| f.light.as_str()).collect();
-    assert_eq!(names, ["sun_15", "sun_30", "sun_60", "overcast"]);
+    assert_eq!(names, ["sun_15", "sun_30", "sun_60", "overcast", "flash"]);
     for f in &all {
         assert_eq!(
             (f.rmse, f.rmse_unshadowed, f.gain, f.rmse_fitted),
@@ -315,6 +316,156 @@ fn no_forest_is_white_paper() {
     }
 }
 
+/// The flash of [`EYE`], and how it lights a plate of 10 x 10 mm, seen straight on: it stands at (5, -15, 20).
+fn flash_of(forest: &TriMesh) -> LightLikeness {
+    let target = view("plate", EYE, plate(0.0), ORANGE);
+    let all = figures(&target, forest);
+    all.into_iter().find(|f| f.light == "flash").expect("one")
+}
+
+#[test]
+fn the_flash_stands_beside_the_model() {
+    let plane = ImagePlane::looking_at(EYE, MIDDLE);
+    let model = both(&plate(0.0), &ball(MIDDLE + 4.0 * DVec3::X, 2.0, 12));
+    let left = Flash::beside(&plane, &model, true);
+    // The plate's left edge is at y = -5, the ball reaches to x = 6; the width is 10 mm.
+    assert!(left.place.distance(DVec3::new(11.0, -15.0, 20.0)) < 1e-9);
+    let nearest = model.vertices.iter().map(|v| v.distance(left.place));
+    assert_eq!(left.unit_mm, nearest.fold(f64::INFINITY, f64::min));
+    let right = Flash::beside(&plane, &model, false);
+    assert!(right.place.distance(DVec3::new(11.0, 15.0, 20.0)) < 1e-9);
+}
+
+#[test]
+fn a_far_flash_is_a_sun() {
+    let mesh = both(&floor(), &ball(DVec3::new(1.0, 2.0, 9.0), 5.0, 16));
+    let bvh = Bvh::new(&mesh);
+    let body = Body::new(&mesh, &bvh);
+    let l = DVec3::new(0.5, -0.3, 0.6).normalize();
+    let flash = Flash {
+        place: 1e8 * l,
+        unit_mm: 1e8,
+    };
+    let (mut lit, mut dark) = (0, 0);
+    for k in 0..40 {
+        for j in 0..40 {
+            let from = DVec3::new(f64::from(k) - 20.3, f64::from(j) - 19.7, 60.0);
+            let meet = body.meet(from, -DVec3::Z).expect("the floor at least");
+            let (near, far) = (flash.light(&body, &meet), body.sunlight(&meet, l));
+            assert!((near.free - far.free).abs() < 1e-5, "{near:?} {far:?}");
+            assert_eq!(near.open, far.open, "{from}");
+            lit += usize::from(far.shade() > 0.0);
+            dark += usize::from(far.free > 0.0 && far.open == 0.0);
+        }
+    }
+    assert!(lit > 500 && dark > 30, "{lit} {dark}");
+}
+
+#[test]
+fn a_flash_lights_a_ball_by_formula() {
+    // A point at the angle t from the flash at the distance D of the middle: (D cos t - R) (D - R)^2 / d^3.
+    const RADIUS: f64 = 6.0;
+    const AWAY: f64 = 15.0;
+    let mesh = ball(DVec3::ZERO, RADIUS, 200);
+    let bvh = Bvh::new(&mesh);
+    let body = Body::new(&mesh, &bvh);
+    let towards = DVec3::new(0.3, -0.8, 0.4).normalize();
+    let flash = Flash {
+        place: AWAY * towards,
+        unit_mm: AWAY - RADIUS,
+    };
+    let aside = towards.any_orthonormal_vector();
+    for degrees in [0.0f64, 10.0, 25.0, 40.0, 60.0, 75.0, 120.0, 180.0] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let way = cos * towards + sin * aside;
+        let meet = body.meet(20.0 * way, -way).expect("the ball");
+        let d2 = AWAY * AWAY + RADIUS * RADIUS - 2.0 * AWAY * RADIUS * cos;
+        let facing = (AWAY * cos - RADIUS).max(0.0);
+        let wanted = facing * (AWAY - RADIUS).powi(2) / d2.powf(1.5);
+        let found = flash.light(&body, &meet).shade();
+        assert!((found - wanted).abs() < 0.01, "{degrees}: {found} {wanted}");
+    }
+}
+
+#[test]
+fn the_flash_of_a_mirrored_scene_on_the_other_side_gives_the_mirrored_light() {
+    let mirrored = |p: DVec3| DVec3::new(p.x, -p.y, p.z);
+    let mesh = both(
+        &ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 24),
+        &ball(DVec3::new(12.0, -4.0, 26.0), 4.0, 12),
+    );
+    let twin = TriMesh {
+        vertices: mesh.vertices.iter().map(|v| mirrored(*v)).collect(),
+        faces: mesh.faces.iter().map(|f| [f[0], f[2], f[1]]).collect(),
+    };
+    let (bvh, twin_bvh) = (Bvh::new(&mesh), Bvh::new(&twin));
+    let (body, twin_body) = (Body::new(&mesh, &bvh), Body::new(&twin, &twin_bvh));
+    let plane = ImagePlane::looking_at(EYE, MIDDLE);
+    let flash = Flash::beside(&plane, &mesh, true);
+    let other = Flash::beside(&plane, &twin, false);
+    assert!(mirrored(flash.place).distance(other.place) < 1e-9);
+    let mut lit = 0;
+    for k in -20..20 {
+        for j in -20..20 {
+            let aim = DVec3::new(0.0, 0.7 * f64::from(k) + 0.1, 20.2 + 0.7 * f64::from(j));
+            let meet = body.meet(EYE, (aim - EYE).normalize());
+            let twin = twin_body.meet(mirrored(EYE), (mirrored(aim) - mirrored(EYE)).normalize());
+            let (Some(meet), Some(twin)) = (meet, twin) else {
+                continue;
+            };
+            let (a, b) = (flash.light(&body, &meet), other.light(&twin_body, &twin));
+            assert!(
+                (a.free - b.free).abs() < 1e-9 && a.open == b.open,
+                "{a:?} {b:?}"
+            );
+            lit += usize::from(a.shade() > 0.0);
+        }
+    }
+    assert!(lit > 100, "{lit}");
+}
+
+#[test]
+fn only_what_stands_between_casts_a_shadow_in_the_flash() {
+    let screen = |y: f64| wall(DVec3::new(5.0, y, 0.0), DVec3::Y, 20.0, 60.0);
+    let hidden = flash_of(&both(&plate(0.0), &screen(-10.0)));
+    assert_eq!(hidden.false_shadow_share, Some(1.0));
+    assert_eq!((hidden.rmse_unshadowed, hidden.gain), (0.0, 1.0));
+    let beyond = flash_of(&both(&plate(0.0), &screen(-20.0)));
+    assert_eq!((beyond.rmse, beyond.false_shadow_share), (0.0, Some(0.0)));
+}
+
+#[test]
+fn a_plate_behind_the_model_gets_less_of_the_flash() {
+    // One of the same image twice as far away lies at (-100, y, 20 + z) with twice the size: the shade of every point by formula.
+    let far = plate(0.0).transformed(
+        DMat4::from_translation(EYE)
+            * DMat4::from_scale(DVec3::splat(2.0))
+            * DMat4::from_translation(-EYE),
+    );
+    let found = flash_of(&far);
+    let flash = DVec3::new(5.0, -15.0, 20.0);
+    let unit2 = 5f64.powi(2) + 10f64.powi(2);
+    let shade = |p: DVec3| {
+        let way = flash - p;
+        way.x * unit2 / way.length().powi(3)
+    };
+    let (mut sum, mut count) = (0.0, 0.0);
+    for k in 0..100 {
+        for j in 0..100 {
+            let [y, z] = [k, j].map(|i| 0.1 * (f64::from(i) + 0.5) - 5.0);
+            let near = DVec3::new(0.0, y, 20.0 + z);
+            sum += (shade(near) - shade(EYE + 2.0 * (near - EYE))).powi(2);
+            count += 1.0;
+        }
+    }
+    let wanted = 217.0 * f64::sqrt(sum / count);
+    assert!(
+        (found.rmse / wanted - 1.0).abs() < 0.01,
+        "{found:?} {wanted}"
+    );
+    assert_eq!(found.rmse, found.rmse_unshadowed);
+}
+
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     let model = ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 16);
@@ -333,18 +484,18 @@ fn the_number_of_threads_changes_no_bit() {
 }
 
 #[test]
-fn the_sheet_shows_eight_panels_and_lights_differ() {
+fn the_sheet_shows_ten_panels_and_lights_differ() {
     let model = ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 24);
     let view = view("owl", DVec3::new(90.0, -40.0, 25.0), model.clone(), ORANGE);
     let (_, png) = light_pictures(&view, &model, &Bvh::new(&model));
     let sheet = tiny_skia::Pixmap::decode_png(&png).unwrap();
-    let (across, down) = (sheet.width() / 4, 320);
+    let (across, down) = (sheet.width() / 5, 320);
     let grey = |column: u32, row: u32| {
         let x = column * across + across / 2;
         let y = 26 + row * (down + 8) + down / 2;
         sheet.pixel(x, y).expect("inside").red()
     };
-    for column in 0..4 {
+    for column in 0..5 {
         assert_eq!(
             grey(column, 0),
             grey(column, 1),
@@ -382,10 +533,13 @@ fn a_scene_may_do_without_light() {
     assert_eq!(sheets.count(), views.len());
     for view in views {
         let lights = view["lights"].as_array().expect("lights");
-        assert_eq!(lights.len(), 4);
+        assert_eq!(lights.len(), 5);
         assert_eq!(lights[1]["light"], "sun_30");
         assert_eq!(lights[1]["elevation_deg"], 30.0);
         assert!(lights.iter().all(|l| l["rmse"].as_f64().is_some()));
         assert!(lights[3].get("false_shadow_share").is_none());
+        assert_eq!(lights[4]["light"], "flash");
+        assert!(lights[4]["false_shadow_share"].as_f64().is_some());
+        assert!(lights[4].get("elevation_deg").is_none());
     }
 }

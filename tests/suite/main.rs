@@ -29,6 +29,7 @@ mod render;
 mod report_html;
 mod scene;
 mod scenes;
+mod sections;
 mod shapes;
 mod split;
 mod steps;

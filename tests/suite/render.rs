@@ -4,7 +4,8 @@ use crate::shapes::{ORANGE, ball, grove, view};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::mesh::TriMesh;
-use pillarforest::render::{Likeness, camera, thumbnail, view_pictures};
+use pillarforest::render::turntable::{PICTURES, Turntable};
+use pillarforest::render::{Likeness, camera, thumbnail, turntable, view_pictures};
 use pillarforest::report::{Report, SolidReport, ViewReport};
 use pillarforest::steps::{StepLine, StepSummary};
 use pillarforest::view::View;
@@ -309,4 +310,102 @@ fn a_report_can_be_read_back_and_knows_no_clock() {
         "what was not measured is left out"
     );
     assert_eq!(value["solid"]["parts"], 1);
+}
+
+/// An owl in a wide forest.
+fn wide() -> TriMesh {
+    let mut forest = ball(DVec3::new(3.0, 2.0, 20.0), 9.0, 24);
+    forest.append(&ball(DVec3::new(20.0, -14.0, 6.0), 6.0, 12));
+    forest
+}
+
+#[test]
+fn the_turntables_eyes_go_around_at_one_height_and_distance() {
+    let view = owl();
+    let middle = DVec3::new(3.0, 2.0, 20.0);
+    let table = Turntable::new(&view, &wide());
+    assert!(!table.moved);
+    let degrees: Vec<f64> = (0..PICTURES).map(turntable::angle_deg).collect();
+    assert_eq!(degrees, [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0]);
+    assert!(table.planes[3].eye.distance(EYE) < 1e-9);
+    for (plane, degrees) in table.planes.iter().zip(degrees) {
+        let arm = plane.eye - middle;
+        assert!((arm.length() - EYE.distance(middle)).abs() < 1e-9);
+        assert!((plane.eye.z - EYE.z).abs() < 1e-9);
+        // Positive angles are to the right of the eye.
+        let aside = arm.dot(table.planes[3].right);
+        let level = arm.truncate().length();
+        assert!((aside - level * degrees.to_radians().sin()).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_turntable_cuts_nothing_off_and_wastes_nothing() {
+    let forest = wide();
+    let table = Turntable::new(&owl(), &forest);
+    let image = || {
+        let planes = table.planes.iter();
+        planes.flat_map(|p| forest.vertices.iter().filter_map(|v| p.project(*v)))
+    };
+    assert_eq!(image().count(), PICTURES * forest.vertices.len());
+    assert!(image().all(|q| q.cmpge(table.lo).all() && q.cmple(table.hi).all()));
+    let size = table.hi - table.lo;
+    let top = image().map(|q| q.y).fold(f64::NEG_INFINITY, f64::max);
+    let side = image().map(|q| q.x.abs()).fold(0.0, f64::max);
+    assert!(table.hi.y - top < 0.05 * size.max_element());
+    assert!(table.hi.x - side < 0.05 * size.max_element());
+}
+
+#[test]
+fn an_eye_that_would_pass_through_the_solid_is_moved_out() {
+    let mut near = owl();
+    near.eye = DVec3::new(22.0, 2.0, 25.0);
+    let forest = wide();
+    let table = Turntable::new(&near, &forest);
+    assert!(table.moved);
+    let depths = table
+        .planes
+        .iter()
+        .flat_map(|p| forest.vertices.iter().map(|v| p.depth(*v)));
+    assert!(depths.fold(f64::INFINITY, f64::min) > 0.0);
+}
+
+#[test]
+fn a_ball_looks_the_same_all_around_the_turntable() {
+    let view = owl();
+    let forest = view.models[0].mesh.clone();
+    let bvh = Bvh::new(&forest);
+    let draw = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| turntable::turntable(&view, &forest, &bvh, 100))
+    };
+    let png = draw(1);
+    assert_eq!(png, draw(3));
+    let strip = tiny_skia::Pixmap::decode_png(&png).unwrap();
+    // Square pictures of 100 pixels with gaps of 2.
+    assert_eq!((strip.width(), strip.height()), (7 * 102 + 2, 117));
+    let grey =
+        |k: u32, x: u32, y: u32| f64::from(strip.pixel(2 + 102 * k + x, 2 + y).unwrap().red());
+    let mut dark = 0;
+    for k in 0..7 {
+        for x in 0..100 {
+            assert_eq!(
+                (grey(k, x, 0), grey(k, 0, x), grey(k, x, 99)),
+                (255.0, 255.0, 255.0)
+            );
+            for y in 0..100 {
+                dark += usize::from(grey(k, x, y) < 240.0);
+            }
+        }
+        let apart =
+            (0..10_000).map(|i| (grey(k, i % 100, i / 100) - grey(3, i % 100, i / 100)).abs());
+        let mean = apart.sum::<f64>() / 10_000.0;
+        assert!(mean < 1.0, "{k}: {mean}");
+    }
+    let share = dark as f64 / 70_000.0;
+    assert!(
+        (share - std::f64::consts::PI / 4.0 / 1.05f64.powi(2)).abs() < 0.02,
+        "{share}"
+    );
 }

@@ -105,8 +105,8 @@ fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
     };
     let sheet = shown.and_then(|s| s.lights).map_or_else(String::new, |png| {
         format!(
-            "<figure class=\"lights\">{}<figcaption>Above the model, below the forest, under the sun at three heights and an \
-             overcast sky.</figcaption></figure>\n",
+            "<figure class=\"lights\">{}<figcaption>Above the model, below the forest, under the sun at three heights, an \
+             overcast sky and a flash beside the model.</figcaption></figure>\n",
             picture(png, &format!("{}: in real light", v.name))
         )
     });
@@ -115,10 +115,11 @@ fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
         .map(|l| {
             let dash = "\u{2013}".to_owned();
             [
-                l.elevation_deg.map_or_else(
-                    || "overcast sky".to_owned(),
-                    |e| format!("sun at {}", measure(e, 0, "°")),
-                ),
+                match l.elevation_deg {
+                    Some(e) => format!("sun at {}", measure(e, 0, "°")),
+                    None if l.light == "flash" => "flash beside it".to_owned(),
+                    None => "overcast sky".to_owned(),
+                },
                 measure(l.rmse, 1, ""),
                 measure(l.rmse_unshadowed, 1, ""),
                 measure(l.rmse_fitted, 1, ""),
