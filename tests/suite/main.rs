@@ -7,6 +7,7 @@ mod camouflage;
 mod certificates_coverage;
 mod cli;
 mod dense;
+mod detail;
 mod diagram;
 mod energies;
 mod files;
