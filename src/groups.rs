@@ -9,7 +9,7 @@
 use crate::diag::Diagnostic;
 use crate::geom::barycentric;
 use crate::mesh::face_components;
-use crate::support::{Datum, Slab};
+use crate::support::{Datum, Hits, Slab};
 use crate::viewmap::{SupportField, Target, ViewMap};
 use glam::DVec2;
 
@@ -260,7 +260,8 @@ fn check_layers(
         let (Some(slab), Some(layer)) = (slabs[s as usize], support.layer) else {
             continue;
         };
-        if !slab.is_carved() {
+        // Through walls a layer leaves its core by itself.
+        if !slab.is_carved() || slab.goes_through() {
             continue;
         }
         let behind = if slab.is_shell() {
@@ -301,7 +302,7 @@ fn behind<'a>(
         let direction = map.plane.direction(q);
         let surface = surface_in(map, field, slab, *c as usize, q);
         let thickness = field.thickness(support, map.plane.eye, direction);
-        (surface + thickness - slab.bounds(direction, surface).1) * direction.length()
+        (surface.first + thickness - slab.bounds(direction, surface).1) * direction.length()
     };
     cells.map(left).fold(f64::INFINITY, f64::min)
 }
@@ -316,7 +317,7 @@ fn bounds(
 ) -> (Vec<Bound>, usize) {
     // One bound for each group, plane of the layer, point and set of vertices: cells that share a corner on a mesh vertex or
     // edge agree there.
-    type Key = (u32, Option<u32>, u32, [u32; 3]);
+    type Key = (u32, [Option<u32>; 2], u32, [u32; 3]);
     let mut keyed: Vec<(Key, Bound)> = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
         let (Some(group), Some(face), Some(support)) = (of_cell[c], cell.face, cell.support) else {
@@ -340,9 +341,9 @@ fn bounds(
                 }
             });
             key.sort_unstable();
-            let plane = cell.facet.filter(|_| slab.follows_surface());
+            let planes = [cell.facet, cell.leaves].map(|f| f.filter(|_| slab.follows_surface()));
             keyed.push((
-                (group, plane, p, key),
+                (group, planes, p, key),
                 Bound {
                     group,
                     anchor,
@@ -401,13 +402,20 @@ pub fn layer_at(
     let direction = map.plane.direction(q);
     let on_plane = slab.plane(direction, 0.0);
     if !slab.follows_surface() {
-        return slab.bounds(direction, on_plane);
+        return slab.bounds(direction, Hits::at(on_plane));
+    }
+    if slab.goes_through()
+        && let Some((first, leaves)) = field.wall(support, map.plane.eye, direction)
+    {
+        let (first, leaves) = (first.t, Some(leaves.t));
+        let leaves = leaves.filter(|l| slab.has_room(first, *l));
+        return slab.bounds(direction, Hits { first, leaves });
     }
     // At the outline the ray may just miss the support: the datum plane is where a pillar's surface ends there.
     let surface = field
         .hit_of(support, map.plane.eye, direction)
         .unwrap_or(on_plane);
-    slab.bounds(direction, surface)
+    slab.bounds(direction, Hits::at(surface))
 }
 
 /// The same at corner `k` of a cell, whose part of the support is one plane: the inverses of both are affine over the cell. Where an
@@ -427,11 +435,22 @@ pub fn layer_in(
         .unwrap_or_else(|| slab.bounds(direction, surface))
 }
 
-/// Depth of a layer's datum on the ray `q`, in the plane that the support is in a cell.
-pub fn surface_in(map: &ViewMap, field: &SupportField, slab: &Slab, cell: usize, q: DVec2) -> f64 {
-    let direction = map.plane.direction(q);
-    match map.cells[cell].facet.filter(|_| slab.follows_surface()) {
-        Some(f) => field.facet_depth(f, map.plane.eye, direction),
-        None => slab.plane(direction, 0.0),
+/// Where the ray `q` meets a layer's datum, in the plane that the support is in a cell; and where it leaves the wall behind, if the
+/// layer goes through that and all of the cell has room: over a cell it has if its corners do.
+pub fn surface_in(map: &ViewMap, field: &SupportField, slab: &Slab, cell: usize, q: DVec2) -> Hits {
+    let at = |f: u32, q: DVec2| field.facet_depth(f, map.plane.eye, map.plane.direction(q));
+    let Some(facet) = map.cells[cell].facet.filter(|_| slab.follows_surface()) else {
+        return Hits::at(slab.plane(map.plane.direction(q), 0.0));
+    };
+    let leaves = map.cells[cell].leaves.filter(|_| slab.goes_through());
+    let roomy = |f: &u32| {
+        let corners = map.triangle(cell);
+        corners
+            .iter()
+            .all(|q| slab.has_room(at(facet, *q), at(*f, *q)))
+    };
+    Hits {
+        first: at(facet, q),
+        leaves: leaves.filter(roomy).map(|f| at(f, q)),
     }
 }

@@ -26,8 +26,8 @@
 //! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
-//! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
+//! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
 //!
 //! # Symbols
 //!
@@ -43,7 +43,7 @@
 //!   [`planner`], from the scene's seed.
 //! - Printable formats take [`mesh::Solid`], whose only constructor checks closed, oriented, 2-manifold, free of
 //!   self-intersection and positive volume after rounding to f32.
-//! - One library, one module: `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in `mimic::solve`, `manifold-rust` in
+//! - One library, one module: `alum` in [`mesh::simplify`], `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in `mimic::solve`, `manifold-rust` in
 //!   `carve::boolean`, `i_overlay` in `carve::hollow`, `exmex` in `scene::heights`, `rand` in [`planner`].
 //! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that are no
 //!   pillars are one kind, a body: a new form is a new mesh in `scene::forms`, not a new pipeline.

@@ -26,6 +26,9 @@ pub struct Layer {
     pub back: f64,
     /// Material that must be left behind the layer.
     pub core: f64,
+    /// Whether it reaches through the wall behind the first hit, up to `core` before rays leave that, instead of `back` behind the
+    /// datum; only with [`Datum::Surface`].
+    pub through: bool,
     /// Whether the outline of every component of the model must lie on the datum, to [`HULL_MM`] (paper Figs 12 and 17).
     pub hull: bool,
 }
@@ -42,6 +45,25 @@ pub struct Face {
     pub point: DVec3,
     /// Unit.
     pub normal: DVec3,
+}
+
+/// Where a ray meets a support, in units of its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hits {
+    /// Where it first meets it.
+    pub first: f64,
+    /// Where it leaves the wall behind that, if the layer goes through it there.
+    pub leaves: Option<f64>,
+}
+
+impl Hits {
+    /// The first hit alone.
+    pub fn at(first: f64) -> Self {
+        Self {
+            first,
+            leaves: None,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +133,9 @@ const BACKING_SHARE: f64 = 0.45;
 /// What is carved out before a relief begins no nearer to the eye than this share of the way to its support leaves.
 const NEAREST: f64 = 0.95;
 
+/// Eyes that stand inside of the box around a body count as this far from it: its core then is more than it must be.
+const NEAREST_EYE_MM: f64 = 10.0;
+
 /// The layer of one support as one eye meets it: depths along rays, in units of each ray's direction vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Slab {
@@ -121,6 +146,8 @@ pub struct Slab {
     distance: f64,
     /// Distance at which a shell is as thick as its layer says, millimetres.
     measure: f64,
+    /// No part of the support is nearer to the eye than this, millimetres: here a core is as thick as its layer says.
+    nearest: f64,
     layer: Layer,
     /// How far the support reaches in front of and behind its datum plane, millimetres.
     reach: (f64, f64),
@@ -143,6 +170,7 @@ impl Slab {
                     towards: towards.extend(0.0),
                     distance,
                     measure: distance,
+                    nearest: distance,
                     layer,
                     reach: reach(along),
                     body: false,
@@ -163,6 +191,7 @@ impl Slab {
                     towards,
                     distance,
                     measure: farthest(&support.mesh, eye),
+                    nearest: eye.distance(eye.clamp(lo, hi)).max(NEAREST_EYE_MM),
                     layer,
                     reach: reach(along.map(|v| (*v - point).dot(towards))),
                     body: true,
@@ -177,18 +206,34 @@ impl Slab {
         self.layer.datum == Datum::Surface
     }
 
-    /// Smallest and largest depth a relief may have on a ray; `surface` is the ray's first hit with the support. A shell is the
+    /// Whether the layer reaches through the wall behind a ray's first hit.
+    pub fn goes_through(&self) -> bool {
+        self.layer.through && self.follows_surface()
+    }
+
+    /// Whether a wall has room for its core and something to carve before it.
+    pub fn has_room(&self, first: f64, leaves: f64) -> bool {
+        self.before_core(leaves) >= first * (1.0 + SUNK_MM / self.measure)
+    }
+
+    /// Depth at which the core of a wall begins that the ray leaves at `leaves`.
+    fn before_core(&self, leaves: f64) -> f64 {
+        leaves * (1.0 - self.layer.core / self.nearest)
+    }
+
+    /// Smallest and largest depth a relief may have on a ray that meets the support there. A shell is the
     /// surface scaled about the eye, by `front` and `back` millimetres at the axis's distance: so its layer is flat over every
-    /// flat part of the surface.
-    pub fn bounds(&self, direction: DVec3, surface: f64) -> (f64, f64) {
+    /// flat part of the surface. One that goes through walls ends `core` before rays leave them, measured at its nearest point; where
+    /// they are too thin for that reliefs only stand on them.
+    pub fn bounds(&self, direction: DVec3, hits: Hits) -> (f64, f64) {
         match self.layer.datum {
             Datum::Plane => (
                 self.plane(direction, -self.layer.front),
                 self.plane(direction, self.layer.back),
             ),
             Datum::Surface => (
-                surface * (1.0 - self.layer.front / self.measure),
-                surface * (1.0 + self.layer.back / self.measure),
+                hits.first * (1.0 - self.layer.front / self.measure),
+                self.back_of_shell(hits),
             ),
         }
     }
@@ -201,17 +246,26 @@ impl Slab {
         }
     }
 
+    fn back_of_shell(&self, hits: Hits) -> f64 {
+        let behind = |mm: f64| hits.first * (1.0 + mm / self.measure);
+        match hits.leaves {
+            Some(leaves) => self.before_core(leaves),
+            None if self.goes_through() => behind(SUNK_MM),
+            None => behind(self.layer.back),
+        }
+    }
+
     /// Whether outlines of the model are to lie on the datum.
     pub fn draws(&self) -> bool {
         self.layer.hull
     }
 
     /// Smallest and largest depth at which an outline lies on the datum, if it is to lie there.
-    pub fn on_datum(&self, direction: DVec3, surface: f64) -> Option<(f64, f64)> {
-        let (near, far) = self.bounds(direction, surface);
+    pub fn on_datum(&self, direction: DVec3, hits: Hits) -> Option<(f64, f64)> {
+        let (near, far) = self.bounds(direction, hits);
         let at = |offset: f64| match self.layer.datum {
             Datum::Plane => self.plane(direction, offset),
-            Datum::Surface => surface * (1.0 + offset / self.measure),
+            Datum::Surface => hits.first * (1.0 + offset / self.measure),
         };
         self.layer
             .hull
@@ -220,7 +274,7 @@ impl Slab {
 
     /// Whether reliefs are carved into the support or only stand on it.
     pub fn is_carved(&self) -> bool {
-        !self.body || self.layer.back > SUNK_MM
+        !self.body || self.layer.back > SUNK_MM || self.goes_through()
     }
 
     /// Whether reliefs follow a body of any form: then nothing about them is flat but within a facet.
@@ -229,9 +283,9 @@ impl Slab {
     }
 
     /// Depth on a ray at which a shell's reliefs end in solid material (`share` 1) or part of the way from the layer's back to there.
-    pub fn shell_backing(&self, surface: f64, share: f64) -> f64 {
+    pub fn shell_backing(&self, hits: Hits, share: f64) -> f64 {
         let backing = BACKING_MM.min(BACKING_SHARE * self.layer.core);
-        surface * (1.0 + (self.layer.back + share * backing) / self.measure)
+        self.back_of_shell(hits) * (1.0 + share * backing / self.measure)
     }
 
     /// Depth on a ray of the plane `offset` millimetres behind the datum plane.

@@ -297,6 +297,7 @@ fn original(model: &PlacedModel) -> Cow<'_, Original> {
             mesh: model.mesh.clone(),
             attributes: Attributes::default(),
             vertex_of: (0..model.mesh.vertices.len() as u32).map(Some).collect(),
+            lowered_from: None,
         }),
     }
 }
@@ -329,8 +330,11 @@ fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {
             vertex + original.mesh.vertices.len(),
             face + original.mesh.faces.len(),
         ];
+        let lowered = original.lowered_from.map_or(String::new(), |[v, f]| {
+            format!(", simplified from {v} vertices and {f} faces by `detail`")
+        });
         notes.push(format!(
-            "model {} of file {}: input vertices from {vertex} to {}, faces from {face} to {}",
+            "model {} of file {}: input vertices from {vertex} to {}, faces from {face} to {}{lowered}",
             model.name,
             model.file,
             next[0].saturating_sub(1),
@@ -340,6 +344,8 @@ fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {
     }
     notes.push(if torn {
         "cut along tears and outlines of supports: input_vertex tells where each vertex comes from, faces that are not seen on a support are left out".to_owned()
+    } else if input.originals.iter().any(|o| o.lowered_from.is_some()) {
+        "vertices and faces are those of the models as simplified; vertices that took no part stay where they are in the model".to_owned()
     } else {
         "vertices and faces are those of the files in their order; vertices that took no part stay where they are in the model".to_owned()
     });

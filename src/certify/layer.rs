@@ -50,7 +50,7 @@ pub fn reach_mm(
         };
         for (q, z) in map.triangle(c).into_iter().zip(depths) {
             let surface = surface_in(map, field, &slab, c, q);
-            let behind = slab.behind_datum(map.plane.direction(q), surface, z);
+            let behind = slab.behind_datum(map.plane.direction(q), surface.first, z);
             reach = (reach.0.max(-behind), reach.1.max(behind));
         }
     }

@@ -6,7 +6,7 @@ use super::messages::{Messages, Source};
 use super::plan::{self, Search};
 use super::progress::Reporter;
 use super::write::{self, Target};
-use super::{Cli, Command, Global, SceneArgs, Style};
+use super::{Cli, Command, Global, Quality, SceneArgs, Style};
 use clap::CommandFactory;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::{Diagnostic, Warned};
@@ -160,16 +160,17 @@ pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<L
         Ok(text) => text,
         Err(problem) => return stop(&[problem], None),
     };
+    text = scene::at_quality(&text, quality(args.quality));
     for assignment in &args.sets {
         text = match scene::set(&text, assignment) {
             Ok(text) => text,
             Err(problem) => return stop(&[problem], None),
         };
     }
-    let changed = if args.sets.is_empty() {
-        ""
-    } else {
-        " (with --set)"
+    let changed = match (args.sets.is_empty(), args.quality) {
+        (false, _) => " (with --set)",
+        (true, Quality::Normal) => "",
+        (true, _) => " (with --quality)",
     };
     let source = Source {
         path: format!("{}{changed}", args.scene.display()),
@@ -200,6 +201,14 @@ pub fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
     }
     let variable = std::env::var_os("PILLARFOREST_MODELS").filter(|v| !v.is_empty());
     variable.map(PathBuf::from).into_iter().collect()
+}
+
+fn quality(quality: Quality) -> scene::Quality {
+    match quality {
+        Quality::Draft => scene::Quality::Draft,
+        Quality::Normal => scene::Quality::Normal,
+        Quality::Final => scene::Quality::Final,
+    }
 }
 
 impl Loaded {

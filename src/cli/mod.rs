@@ -75,6 +75,16 @@ pub enum Deny {
     Warnings,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Quality {
+    /// Models of at most 10000 vertices, pictures of 320 pixels, no lights and no camouflage
+    Draft,
+    /// As the scene is written
+    Normal,
+    /// As it is written, with pictures of 1024 pixels
+    Final,
+}
+
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Write a commented scene, and the model it shows, to start from
@@ -169,6 +179,9 @@ pub struct SceneArgs {
     /// Change a value of the scene for this run: pillars[0].height=80, views[front].eye=(0,-300,60), energy=Curvature()
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub sets: Vec<String>,
+    /// How much work to do: a draft for trying things out, what the scene says, or large pictures
+    #[arg(long, value_enum, default_value_t = Quality::Normal, value_name = "QUALITY")]
+    pub quality: Quality,
     /// Threads to use [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,

@@ -171,6 +171,7 @@ pub fn load_original(
         mesh: as_read,
         attributes,
         vertex_of,
+        lowered_from: None,
     };
     Ok(Warned {
         value: Model { mesh, original },

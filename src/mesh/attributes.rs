@@ -96,6 +96,8 @@ pub struct Original {
     pub attributes: Attributes,
     /// The model's vertex at every vertex of the file; `None` where no face used it. Several may have become one.
     pub vertex_of: Vec<Option<u32>>,
+    /// Vertices and faces of the file, where this is a simplified form of it.
+    pub lowered_from: Option<[usize; 2]>,
 }
 
 impl Original {

@@ -21,6 +21,7 @@ pub const LAYER: Layer = Layer {
     front: 5.0,
     back: 2.0,
     core: 1.0,
+    through: false,
     hull: false,
 };
 /// Layers of supports that are no pillars: reliefs stand on them.
@@ -29,6 +30,7 @@ pub const ON_BODIES: Layer = Layer {
     front: 5.0,
     back: SUNK_MM,
     core: 1.0,
+    through: false,
     hull: false,
 };
 /// On thinner pillars the default `back` and `core` shrink to these shares of the room behind the datum
@@ -95,6 +97,13 @@ pub const CREASES: std::ops::RangeInclusive<f64> = 0.0..=180.0;
 /// Where supports look that do not say: as models do in their files.
 pub const FACING: [f64; 2] = [0.0, -1.0];
 pub const MOST_BODIES: usize = 1000;
+
+/// The most vertices of a model, if a scene says so. Below 100 nothing is left of most models.
+pub const DETAILS: std::ops::RangeInclusive<u32> = 100..=10_000_000;
+/// Drafts: the paper's interactive sizes begin here, and its programs are solved in seconds.
+pub const DRAFT_DETAIL: u32 = 10_000;
+pub const DRAFT_PICTURE_SIZE: u32 = 320;
+pub const FINAL_PICTURE_SIZE: u32 = 1024;
 
 /// Model axes in the file: which way is up, which way is the side to be seen.
 pub const UP: &str = "z";

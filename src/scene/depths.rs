@@ -17,6 +17,7 @@ pub struct Wish {
     back: Option<f64>,
     core: Option<f64>,
     hull: Option<bool>,
+    through: Option<bool>,
 }
 
 impl Wish {
@@ -39,6 +40,7 @@ pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> 
     let hull = reader
         .given(&raw.outline)
         .map(|(outline, _)| *outline == RawOutline::OnSupport);
+    let through = through(reader, raw);
     let mut length = |field, name, under| {
         reader
             .length_from(field, name, 0.0)
@@ -69,16 +71,50 @@ pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> 
         back,
         core,
         hull: hull.or(under.hull),
+        through: through.or(under.through),
     }
+}
+
+/// Between which hits of rays with a support the layer lies: whether it goes through the wall behind the first.
+fn through(reader: &mut Reader, raw: &RawDepth) -> Option<bool> {
+    let (hits, at) = reader.given(&raw.hits)?;
+    let through = match hits.0 {
+        [1, 1] => Some(false),
+        [1, 2] => Some(true),
+        [from, to] => {
+            let text = format!(
+                "hits: ({from}, {to}): a relief behind other parts of its support would not be seen"
+            );
+            reader.problems.push(error_at(&at, text).help(
+                "write `hits: (1, 1)`, around where rays first meet it, or `hits: (1, 2)`, from there through the wall behind",
+            ));
+            None
+        }
+    };
+    if through == Some(true)
+        && let Some((_, at)) = reader.given(&raw.back)
+    {
+        let text = "`back` plays no part with hits: (1, 2): the layer ends `core` before rays leave the wall";
+        reader
+            .problems
+            .push(error_at(&at, text).help("leave `back` out, and say `core`"));
+    }
+    through
 }
 
 /// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the eyes.
 pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
     let span = wish.span.as_ref().unwrap_or(entry);
-    let usual = match flat {
+    let through = wish.through.unwrap_or(defaults::ON_BODIES.through);
+    let usual = match flat && !through {
         true => Datum::Plane,
         false => Datum::Surface,
     };
+    if through && wish.datum.is_some_and(|(datum, _)| datum == Datum::Plane) {
+        let text = "hits: (1, 2) are counted along rays, and this layer is square to a plane";
+        let help = "leave `from` out, or write `from: Surface`";
+        reader.problems.push(error_at(span, text).help(help));
+    }
     let known = |name: &str| name == "Surface" || (name == "Face" && flat);
     if let Some((_, name)) = wish.datum.filter(|(_, name)| !known(name)) {
         let (what, help) = match name {
@@ -100,6 +136,7 @@ pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Spa
         front: wish.front.unwrap_or(defaults::ON_BODIES.front),
         back: wish.back.unwrap_or(defaults::ON_BODIES.back).max(SUNK_MM),
         core: wish.core.unwrap_or(defaults::ON_BODIES.core),
+        through,
         hull: wish.hull.unwrap_or(defaults::ON_BODIES.hull),
     }
 }
@@ -120,6 +157,12 @@ pub fn settled(
         reader
             .problems
             .push(error_at(span, text).help("write `from: Axis` or `from: Surface`"));
+    }
+    if wish.through == Some(true) {
+        let text =
+            "hits: (1, 2) here: pillars are carved to `back` behind their axis or their surface";
+        let help = "`hits` belong into the `depth` of supports that are no pillars";
+        reader.problems.push(error_at(span, text).help(help));
     }
     let datum = wish.datum.map_or(defaults::LAYER.datum, |(datum, _)| datum);
     let (room, of) = match (datum, round) {
@@ -146,6 +189,7 @@ pub fn settled(
         front,
         back,
         core,
+        through: false,
         hull: wish.hull.unwrap_or(defaults::LAYER.hull),
     }
 }

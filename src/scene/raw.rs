@@ -35,6 +35,7 @@ raw! {
         title: String,
         units: RawUnit,
         models: List<RawModel>,
+        detail: u32,
         views: List<RawView>,
         pillars: RawForest,
         supports: List<RawSupport>,
@@ -51,6 +52,7 @@ raw! {
         units: RawUnit,
         place: RawPlace,
         regions: List<RawModelRegion>,
+        detail: u32,
     }
     struct RawModelRegion, "a region `(shape: Box(from: (0, 0, 0), to: (10, 10, 10)), weight: 3)`" {
         shape: RawVolume,
@@ -153,7 +155,7 @@ raw! {
         width: f64, depth: f64, thickness: f64, margin: f64, centre: [f64; 2],
     }
     struct RawDepth, "a depth layer `(front: 5, back: 2)`" {
-        from: RawDatum, front: f64, back: f64, core: f64, outline: RawOutline,
+        from: RawDatum, hits: RawRange<u32>, front: f64, back: f64, core: f64, outline: RawOutline,
     }
     struct RawNormal, "`Normal(steps: Never)`" { steps: RawSteps, weight: RawWeight, ordering: bool, reweight: u32, }
     struct RawStepOptions, "`Allowed(highest: 3)`" {

@@ -9,15 +9,16 @@ use super::document::{self, Document};
 use super::forest::{self, Around};
 use super::placing::{self, Placing};
 use super::raw::{List, RawModel, RawScene, RawView};
-use super::reader::{Reader, Span, error_at, nearest, placed, printable, short};
+use super::reader::{Reader, Span, error_at, nearest, placed, printable, short, warning_at};
 use super::spanned::Field;
-use super::{defaults, lexer, marks, names, options};
+use super::{defaults, detail, lexer, marks, names, options};
 use crate::diag::{Diagnostic, Severity, Warned};
 use crate::mesh::{Original, TriMesh};
 use crate::planner::Adjustment;
-use crate::scene::Scene;
+use crate::scene::{Output, Scene};
 use crate::view::{Marks, PlacedModel, View};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Reads a file, a model or a layout, by the name the scene gives.
@@ -33,7 +34,12 @@ struct Model {
     placing: Placing,
     span: Span,
     regions: Vec<marks::Region>,
+    /// The most vertices it may have.
+    detail: Option<usize>,
+    /// As the file has it: models are placed by this.
     mesh: Option<TriMesh>,
+    /// In its place, if that has too many vertices.
+    lowered: Option<TriMesh>,
     original: Option<Arc<Original>>,
     marks: Arc<Marks>,
 }
@@ -118,6 +124,10 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     }
     let title = title(reader, &raw.title);
     let mut models = models(reader, &raw.models, &whole);
+    if let Some(most) = detail::detail(reader, &raw.detail) {
+        let all = models.iter_mut().flatten();
+        all.for_each(|m| m.detail = Some(m.detail.map_or(most, |own| own.min(most))));
+    }
     let drafts = drafts(reader, &raw.views, &whole, models.as_deref());
     let printer = options::printer(reader, &raw.printer);
     let eyes: Vec<Eye> = drafts.iter().map(eye).collect();
@@ -137,6 +147,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     for model in models.iter_mut().flatten() {
         load(reader, model, read);
     }
+    lower(reader, models.as_deref_mut().unwrap_or_default(), &output);
     let adjusted = forest.adjusted(&around.views);
     let views = drafts
         .into_iter()
@@ -227,6 +238,7 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
         .map_or(1.0, |(u, _)| placing::unit(*u).0);
     let placing = placing::placing(reader, &raw.place);
     let regions = marks::regions(reader, &raw.regions);
+    let detail = detail::detail(reader, &raw.detail);
     let ((name, name_span), (file, file_span), (placing, place_span)) = (name?, file?, placing?);
     Some(Model {
         name,
@@ -236,7 +248,9 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
         placing,
         span: place_span.unwrap_or(name_span),
         regions,
+        detail,
         mesh: None,
+        lowered: None,
         original: None,
         marks: Arc::default(),
     })
@@ -258,6 +272,49 @@ fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     model.marks = Arc::new(marks);
     model.mesh = Some(loaded.mesh);
     model.original = Some(Arc::new(loaded.original));
+}
+
+/// Makes models smaller that have too many vertices; tells what they could not do or keep.
+fn lower(reader: &mut Reader, models: &mut [Model], output: &Output) {
+    let remarks: Vec<Option<Diagnostic>> = models
+        .par_iter_mut()
+        .map(|model| model.lower(output))
+        .collect();
+    reader.problems.extend(remarks.into_iter().flatten());
+}
+
+impl Model {
+    fn lower(&mut self, output: &Output) -> Option<Diagnostic> {
+        let (mesh, most) = (self.mesh.as_ref()?, self.detail?);
+        let original = self.original.as_ref()?;
+        let found = detail::lowered(mesh, original, &self.marks, most);
+        let count = found.as_ref().map_or(mesh, |l| &l.mesh).vertices.len();
+        let lost = output.surface && found.as_ref().is_some_and(|l| l.lost_seams);
+        if let Some(lowered) = found {
+            self.marks = Arc::new(lowered.marks);
+            self.original = Some(Arc::new(lowered.original));
+            self.lowered = Some(lowered.mesh);
+        }
+        let name = printable(&self.name);
+        let (text, help) = if count > most {
+            (
+                format!(
+                    "model \"{name}\" keeps {count} vertices, more than `detail: {most}`: with fewer its form would be lost"
+                ),
+                "a larger `detail`, or a model of fewer separate parts",
+            )
+        } else if lost {
+            (
+                format!(
+                    "model \"{name}\" is simplified by `detail`, and its texture points have seams: the surface file goes without them"
+                ),
+                "leave `detail` out for surface files with texture points",
+            )
+        } else {
+            return None;
+        };
+        Some(warning_at(&self.file_span, text).help(help))
+    }
 }
 
 fn drafts(
@@ -428,7 +485,7 @@ fn view(reader: &mut Reader, draft: Draft, models: &[Model], adjusted: &Adjustme
         };
         let Some(mesh) = &model.mesh else { continue };
         let matrix = model.placing.matrix(mesh, model.unit, draft.eye);
-        let mesh = mesh.transformed(matrix);
+        let mesh = model.lowered.as_ref().unwrap_or(mesh).transformed(matrix);
         reader
             .problems
             .extend(placing::size_suspicion(name, &mesh, &model.span));

@@ -98,6 +98,7 @@ fn scene_sections() -> Vec<Section> {
             field("title", "text", format!("{:?}", defaults::TITLE), "for people: report, 3MF, plan"),
             field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
             field("models", "[model, ...]", REQUIRED, "what is to be seen"),
+            field("detail", "count", "as the files", "the most vertices that any model may have: larger ones are simplified on loading, for quick looks"),
             field("views", "[view, ...]", REQUIRED, "from where"),
             field("pillars", "[pillars, ...] | Auto(...) | File(text)", "required without `supports`", "what carries it: listed, to be found, or a layout file in the scene's folder or below"),
             field("supports", "[Plate(...) | Strips(...) | Stairs(...) | Groove(...) | Wave(...) | Mesh(...), ...]", "[]", "what else carries it"),
@@ -114,6 +115,7 @@ fn scene_sections() -> Vec<Section> {
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
             field("place", "Fit(...) | Matrix(...)", "Fit()", "Matrix([(a, b, c, d), (..), (..), (..)]): 4 x 4 by rows, from file coordinates to mm"),
             field("regions", "[region, ...]", "[]", "vertices that count more or less, or are free of the layer"),
+            field("detail", "count", "the scene's", "the most vertices it may have, if that is less than the scene's"),
         ]),
         section("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
             field("shape", "Box(...) | Ball(...) | Painted(text)", REQUIRED, "Painted: by an attribute of the file, a PLY vertex property or red, green, blue of its colours: its values (0 to 1000) are weights, or more than 0.5 is inside if `free`"),
@@ -179,6 +181,7 @@ fn pillar_sections() -> Vec<Section> {
         ]),
         section("depth", "The room of the reliefs.", vec![
             field("from", "Axis | Face | Surface", format!("{}; Face on plates and strips, Surface on other supports", datum()), "measured from the upright plane through a pillar's axis that faces the eye, square to a plate's face, or along the rays from the surface"),
+            field("hits", "(1, 1) | (1, 2)", "(1, 1)", "where rays meet the support: around the first hit, or from there through the wall, up to `core` before rays leave it (not on pillars; `back` plays no part)"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
             field("back", "length", format!("{} mm, at most {} of the room behind; {} mm where there are no pillars", defaults::LAYER.back, defaults::BACK_SHARE, defaults::ON_BODIES.back), "away from the eye: reliefs are carved in"),
             field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the support behind it"),

@@ -63,6 +63,14 @@ pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
     ))
 }
 
+/// The text of the value that a path leads to.
+pub(super) fn value<'a>(text: &'a str, path: &str) -> Option<&'a str> {
+    steps(path)?.iter().try_fold(text, |inside, step| {
+        let entry = find(inside, &tree::entries(inside), step)?;
+        Some(&inside[entry.value])
+    })
+}
+
 fn steps(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     for part in path.trim().split('.') {

@@ -138,6 +138,7 @@ fn triangulate(
                 face: None,
                 support: None,
                 facet: None,
+                leaves: None,
                 support_depth: f64::INFINITY,
                 outline: [false; 3],
             })

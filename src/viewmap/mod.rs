@@ -15,12 +15,13 @@ mod arrange;
 mod outline;
 mod tidy;
 
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, Hit};
 use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
 use crate::mesh::{DisjointSets, Edges, TriMesh, face_components};
 use crate::support::{Datum, Support, SupportKind};
 use crate::view::Marks;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Cells thinner than this, in millimetres at the model's mean distance, are merged away: below it, f32 coordinates and
 /// exact intersection tests of finished solids no longer agree (0.0005 leaves some crossings), above it lines visibly shift.
@@ -40,6 +41,8 @@ pub struct Cell {
     pub support: Option<u32>,
     /// The face of the supports' mesh hit here, for [`SupportField::facet_depth`].
     pub facet: Option<u32>,
+    /// The face of the supports' mesh at which rays leave the wall behind, where a layer goes through that.
+    pub leaves: Option<u32>,
     /// Depth along the forward axis at which the cell's centre meets it; infinite without.
     pub support_depth: f64,
     /// Which corners lie on the outline of the face's component, as the eye sees it.
@@ -144,12 +147,22 @@ impl<'a> SupportField<'a> {
 
     /// How thick a support is behind where a ray first meets it, in units of the ray's direction; infinite if it never leaves it.
     pub fn thickness(&self, support: u32, origin: DVec3, direction: DVec3) -> f64 {
-        let hits = self.bvh.all_hits(origin, direction);
-        let mut own = hits.iter().filter(|h| self.owner[h.face] == support);
-        let first = own.next().map_or(0.0, |h| h.t);
+        let found = self.wall(support, origin, direction);
+        found.map_or(f64::INFINITY, |(first, leaves)| leaves.t - first.t)
+    }
+
+    /// Where a ray first meets a support and where it leaves it again.
+    pub fn wall(&self, support: u32, origin: DVec3, direction: DVec3) -> Option<(Hit, Hit)> {
+        let hits = self.bvh.all_hits(origin, direction).into_iter();
+        let mut own = hits.filter(|h| self.owner[h.face] == support);
         let leaves = |face: usize| self.mesh.area_vector(face).dot(direction) > 0.0;
-        own.find(|h| leaves(h.face))
-            .map_or(f64::INFINITY, |h| h.t - first)
+        Some((own.next()?, own.find(|h| leaves(h.face))?))
+    }
+
+    /// Whether the layer of a support goes through walls.
+    fn goes_through(&self, support: u32) -> bool {
+        let layer = self.supports[support as usize].layer;
+        layer.is_some_and(|l| l.through)
     }
 
     /// The part of its support that a face of the supports' mesh belongs to.
@@ -361,6 +374,7 @@ fn seen_at_samples(plane: &ImagePlane, target: &Target) -> Vec<bool> {
             .any(|q| seen_face(plane, target, *q) == Some(f))
     };
     (0..target.mesh.faces.len())
+        .into_par_iter()
         .map(|f| target.may_be_seen(f) && is_seen(f))
         .collect()
 }
@@ -375,22 +389,31 @@ fn seen_face(plane: &ImagePlane, target: &Target, q: DVec2) -> Option<usize> {
 
 /// Labels every cell by a ray through its centre; gives the cells that stick out of their face.
 fn label(map: &mut ViewMap, target: &Target, supports: &SupportField) -> Vec<usize> {
-    let mut doubtful = Vec::new();
-    for c in 0..map.cells.len() {
-        let corners = map.triangle(c);
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let face = seen_face(&map.plane, target, centre);
-        map.cells[c].face = face.map(|f| f as u32);
-        let direction = map.plane.direction(centre);
-        let hit = supports.bvh.first_hit(map.plane.eye, direction);
-        map.cells[c].support = hit.map(|h| supports.owner[h.face]);
-        map.cells[c].facet = hit.map(|h| h.face as u32);
-        map.cells[c].support_depth = hit.map_or(f64::INFINITY, |h| h.t);
-        if face.is_some_and(|f| !holds(target.image_of(f), corners)) {
-            doubtful.push(c);
-        }
+    let labelled = |c| labelled(map, c, target, supports);
+    map.cells = (0..map.cells.len()).into_par_iter().map(labelled).collect();
+    let sticks_out = |c: &usize| {
+        let face = map.cells[*c].face;
+        face.is_some_and(|f| !holds(target.image_of(f as usize), map.triangle(*c)))
+    };
+    (0..map.cells.len()).filter(sticks_out).collect()
+}
+
+/// A cell with what the ray through its centre meets.
+fn labelled(map: &ViewMap, c: usize, target: &Target, supports: &SupportField) -> Cell {
+    let centre = map.points_mean(map.cells[c].corners);
+    let direction = map.plane.direction(centre);
+    let hit = supports.bvh.first_hit(map.plane.eye, direction);
+    let support = hit.map(|h| supports.owner[h.face]);
+    let through = support.filter(|s| supports.goes_through(*s));
+    let wall = through.and_then(|s| supports.wall(s, map.plane.eye, direction));
+    Cell {
+        face: seen_face(&map.plane, target, centre).map(|f| f as u32),
+        support,
+        facet: hit.map(|h| h.face as u32),
+        leaves: wall.map(|(_, leaves)| leaves.face as u32),
+        support_depth: hit.map_or(f64::INFINITY, |h| h.t),
+        ..map.cells[c]
     }
-    doubtful
 }
 
 /// Whether `outer` holds all points of `inner` but for rounding.

@@ -43,7 +43,31 @@ pub fn seen_outlines(
             }
         }
     }
+    let mut far: Vec<Line> = far_edges(field, plane.eye)
+        .iter()
+        .filter_map(|e| line(plane, *e))
+        .collect();
+    far.retain_mut(|l| clip(l, window));
+    seen.extend(far.iter().map(|l| l.image));
     seen
+}
+
+/// All edges of faces turned away from the eye where a layer goes through walls, hidden or not: no cell then has two planes at
+/// which its rays leave the wall.
+fn far_edges(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
+    let mesh = &field.mesh;
+    let through = |h: &HalfEdge| field.goes_through(field.owner[h.face as usize]);
+    let away = |h: &HalfEdge| {
+        let face = h.face as usize;
+        mesh.area_vector(face).dot(eye - mesh.corners(face)[0]) <= 0.0
+    };
+    let edges = Edges::new(mesh);
+    let wanted = edges
+        .iter()
+        .filter(|sides| through(&sides[0]) && sides.iter().any(away));
+    let ends =
+        |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
+    wanted.map(ends).collect()
 }
 
 /// Edges between a face turned to the eye and one turned away (or no face), and those between two planes of a surface that a

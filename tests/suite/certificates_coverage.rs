@@ -227,6 +227,7 @@ fn crossing() -> Vec<Support> {
         front: 6.0,
         back: 0.5,
         core: 0.2,
+        through: false,
         hull: false,
     });
     vec![pillar(DVec2::ZERO, 14.0, 96, Datum::Plane), thin]

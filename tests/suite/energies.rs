@@ -76,6 +76,7 @@ fn on_plate(model: TriMesh, thickness: f64) -> Setting {
         front: thickness * 5.0 / 7.0,
         back: thickness * 2.0 / 7.0,
         core: 0.0,
+        through: false,
         hull: false,
     };
     let mut setting = Setting::new(model, vec![plate(layer)]);

@@ -39,6 +39,7 @@ fn round(radius: f64) -> Shape {
             front: 5.0,
             back: 2.0,
             core: 1.0,
+            through: false,
             hull: false,
         },
         written: format!("Round(radius: {radius})"),

@@ -84,6 +84,7 @@ fn an_empty_auto_is_what_the_schema_says() {
         front: 5.0,
         back: 2.0,
         core: 1.0,
+        through: false,
         hull: false,
     };
     assert_eq!(shape.layer, layer);

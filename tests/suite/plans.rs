@@ -275,6 +275,7 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            through: false,
             hull: false,
         },
         written: String::new(),

@@ -475,7 +475,9 @@ fn bundled_scenes_resolve_without_a_word() {
         ("fig03-stairs", 1),
         ("fig04-groove", 1),
         ("fig13-wave", 1),
+        ("fig16-strips", 5),
         ("fig17-herd", 1),
+        ("vase", 1),
     ] {
         let scene = bundled(&format!("scenes/paper/{name}.ron"), &models);
         assert_eq!(scene.supports.len(), supports, "{name}");

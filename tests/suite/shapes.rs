@@ -104,6 +104,7 @@ pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            through: false,
             hull: false,
         }),
     }
@@ -218,6 +219,7 @@ impl Setting {
             front: 110.0,
             back: 55.0,
             core: 1.0,
+            through: false,
             hull: false,
         };
         let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::Plane);

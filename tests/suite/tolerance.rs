@@ -40,6 +40,7 @@ fn block(name: &str, lo: DVec2, hi: DVec2) -> Support {
             front: 2.0,
             back: 1.0,
             core: 0.5,
+            through: false,
             hull: false,
         }),
     }

@@ -15,6 +15,7 @@ mod imp;
 mod meshing;
 mod owl;
 mod turtle;
+mod vase;
 
 use meshing::{Creature, Mesh, sculpt};
 use std::path::{Path, PathBuf};
@@ -34,7 +35,7 @@ enum Origin {
 use Origin::{Built, Sculpted};
 
 /// Every model by the name of its file.
-const MODELS: [(&str, Origin); 9] = [
+const MODELS: [(&str, Origin); 10] = [
     ("owl", Sculpted(owl::owl)),
     ("hare", Sculpted(hare::hare)),
     ("fish", Sculpted(fish::fish)),
@@ -44,6 +45,7 @@ const MODELS: [(&str, Origin); 9] = [
     ("imp", Sculpted(imp::imp)),
     ("cow", Sculpted(cow::cow)),
     ("box", Built(cube::cube)),
+    ("vase", Built(vase::vase)),
 ];
 
 fn main() -> ExitCode {
