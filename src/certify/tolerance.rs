@@ -76,11 +76,13 @@ const FAR_FROM_WORST: f64 = 1.0 / 16.0;
 const SLOWER: f64 = 1.5;
 /// The eyes are never brought nearer to the nearest piece than this share of its distance.
 const NEAREST_SHARE: f64 = 0.1;
+/// As from the reading distance, how far an eye at infinity is followed, millimetres: by 60 degrees, where all but edges of a relief is gone.
+const MOST_TURNED_MM: f64 = 1.732 * READING_MM;
 /// Farther than this the two eyes are not sought, millimetres: a kilometre.
 const FARTHEST_MM: f64 = 1e6;
 
 /// Movements of an eye, millimetres to either side; none if no cut would ever open. Of an eye at infinity those of one at the reading
-/// distance, and none along the line of sight.
+/// distance that turns as far, by 60 degrees at most, and none along the line of sight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
     /// Along the image's right, which is level.
@@ -221,7 +223,8 @@ pub fn tolerance(
             if way == Way::Fore && plane.is_parallel() {
                 return None;
             }
-            let (moved, side) = movement_until(&sides, map, way.axis(plane), angle)?;
+            let found = movement_until(&sides, map, way.axis(plane), angle);
+            let (moved, side) = found.filter(|f| !plane.is_parallel() || f.0 < MOST_TURNED_MM)?;
             worst_cuts.push(worst(&side, way, moved, angle, plane, supports));
             Some(moved)
         });

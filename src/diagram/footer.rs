@@ -66,14 +66,9 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         };
         drawing.text(page.at(EYE, y + 2.2), &eye, body);
         drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));
-        // Rounded down: a gap, however thin, never reads as 100 %.
-        let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
-        drawing.text(page.at(ANGLE, y + 2.2), &width(view, sight), right(body));
-        drawing.text(
-            page.at(COVERED, y + 2.2),
-            &format!("{covered} %"),
-            right(body),
-        );
+        let (wide, covered) = shares(view, sight);
+        drawing.text(page.at(ANGLE, y + 2.2), &wide, right(body));
+        drawing.text(page.at(COVERED, y + 2.2), &covered, right(body));
     }
 }
 
@@ -85,6 +80,16 @@ fn plain(x: f64) -> String {
 /// Two decimals at most; never -0.
 fn finer(x: f64) -> String {
     format!("{}", (100.0 * x).round() / 100.0 + 0.0).replace('-', "\u{2212}")
+}
+
+/// How wide a view's models are, and how much of that pillars cover; dashes if it has no width in plan.
+fn shares(view: &View, sight: &Sight) -> (String, String) {
+    if sight.intervals.is_empty() {
+        return ("\u{2013}".to_owned(), "\u{2013}".to_owned());
+    }
+    // Rounded down: a gap, however thin, never reads as 100 %.
+    let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
+    (width(view, sight), format!("{covered} %"))
 }
 
 /// How wide the models are: an angle, or a length as parallel rays have it.

@@ -17,6 +17,7 @@ mod hostile;
 mod lights;
 mod meshes;
 mod numerics;
+mod orthographic;
 mod planner;
 mod planning_pictures;
 mod planning_scene;

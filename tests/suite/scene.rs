@@ -476,6 +476,7 @@ fn bundled_scenes_resolve_without_a_word() {
         ("fig04-groove", 1),
         ("fig13-wave", 1),
         ("fig17-herd", 1),
+        ("orthographic", 1),
     ] {
         let scene = bundled(&format!("scenes/paper/{name}.ron"), &models);
         assert_eq!(scene.supports.len(), supports, "{name}");
