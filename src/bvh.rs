@@ -1,7 +1,8 @@
 //! Ray casting against triangle meshes: the only module that names `obvhs`.
 //!
 //! The tree and its traversal are f32 with boxes padded outwards; the triangle test is f64 and watertight
-//! (Woop, Benthin & Wald 2013), so a ray through a shared edge or vertex hits one of the faces there.
+//! (Woop, Benthin & Wald 2013), so a ray through a shared edge or vertex hits one of the faces there. The f32 ray begins just before
+//! the mesh: from an eye hundreds of metres away it would pass boxes by.
 
 use crate::mesh::TriMesh;
 use glam::{DVec3, Vec3A};
@@ -19,21 +20,43 @@ pub struct Hit {
 pub struct Bvh {
     tree: Bvh2,
     triangles: Vec<[DVec3; 3]>,
+    /// A ball around the mesh, a little wide.
+    centre: DVec3,
+    radius: f64,
 }
+
+/// How much wider than its mesh a tree's ball is.
+const WIDE: f64 = 1.01;
 
 impl Bvh {
     pub fn new(mesh: &TriMesh) -> Self {
         let triangles: Vec<[DVec3; 3]> = (0..mesh.faces.len()).map(|f| mesh.corners(f)).collect();
-        let pad = mesh.bounds().map_or(0.0, |(lo, hi)| {
-            1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length())
-        });
+        let (lo, hi) = mesh.bounds().unwrap_or_default();
+        let pad = 1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length());
         let boxes: Vec<Aabb> = triangles.iter().map(|t| padded_box(t, pad)).collect();
         let tree = build_bvh2(
             &boxes,
             BvhBuildParams::fast_build(),
             &mut Duration::default(),
         );
-        Self { tree, triangles }
+        Self {
+            tree,
+            triangles,
+            centre: (lo + hi) / 2.0,
+            radius: WIDE * ((hi - lo).length() / 2.0 + pad),
+        }
+    }
+
+    /// The ray from where it may first meet the mesh, and the parameter there.
+    fn near_ray(&self, origin: DVec3, direction: DVec3) -> (Ray, f64) {
+        let along = (self.centre - origin).dot(direction) - self.radius * direction.length();
+        let start = (along / direction.length_squared()).max(0.0);
+        let origin = origin + start * direction;
+        let ray = Ray::new_inf(
+            Vec3A::from(origin.as_vec3()),
+            Vec3A::from(direction.as_vec3()),
+        );
+        (ray, start)
     }
 
     /// The nearest face on the ray; ties go to the lower face index.
@@ -54,18 +77,18 @@ impl Bvh {
         let woop = WoopRay::new(origin, direction);
         let mut best: Option<Hit> = None;
         let mut nearest = obvhs::ray::RayHit::none();
-        self.tree
-            .ray_traverse(f32_ray(origin, direction), &mut nearest, |_, slot| {
-                let face = self.tree.primitive_indices[slot] as usize;
-                let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else {
-                    return f32::INFINITY;
-                };
-                if best.is_none_or(|b| t < b.t || (t == b.t && face < b.face)) {
-                    best = Some(Hit { face, t });
-                }
-                // Rounded up well past f32 error, so that an equally near face is still visited.
-                (t * (1.0 + 1e-6)) as f32
-            });
+        let (ray, start) = self.near_ray(origin, direction);
+        self.tree.ray_traverse(ray, &mut nearest, |_, slot| {
+            let face = self.tree.primitive_indices[slot] as usize;
+            let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else {
+                return f32::INFINITY;
+            };
+            if best.is_none_or(|b| t < b.t || (t == b.t && face < b.face)) {
+                best = Some(Hit { face, t });
+            }
+            // Rounded up well past f32 error, so that an equally near face is still visited.
+            ((t - start) * (1.0 + 1e-6)) as f32
+        });
         best
     }
 
@@ -77,7 +100,7 @@ impl Bvh {
         let woop = WoopRay::new(origin, direction);
         let mut hits = Vec::new();
         self.tree
-            .ray_traverse_anyhit(f32_ray(origin, direction), |_, slot| {
+            .ray_traverse_anyhit(self.near_ray(origin, direction).0, |_, slot| {
                 let face = self.tree.primitive_indices[slot] as usize;
                 hits.extend(woop.hit(&self.triangles[face]).map(|t| Hit { face, t }));
             });
@@ -91,9 +114,12 @@ impl Bvh {
             return false;
         }
         let woop = WoopRay::new(origin, direction);
-        let mut ray = f32_ray(origin, direction);
+        let (mut ray, start) = self.near_ray(origin, direction);
+        if t_max <= start {
+            return false;
+        }
         // Rounded up well past f32 error, as in `first_hit_where`.
-        ray.tmax = (t_max * (1.0 + 1e-5)) as f32;
+        ray.tmax = ((t_max - start) * (1.0 + 1e-5)) as f32;
         let free = self.tree.ray_traverse_miss(ray, |_, slot| {
             let face = self.tree.primitive_indices[slot] as usize;
             let hit = woop.hit(&self.triangles[face]);
@@ -112,13 +138,6 @@ fn padded_box(triangle: &[DVec3; 3], pad: f64) -> Aabb {
     let lo = triangle[0].min(triangle[1]).min(triangle[2]) - pad;
     let hi = triangle[0].max(triangle[1]).max(triangle[2]) + pad;
     Aabb::new(Vec3A::from(lo.as_vec3()), Vec3A::from(hi.as_vec3()))
-}
-
-fn f32_ray(origin: DVec3, direction: DVec3) -> Ray {
-    Ray::new_inf(
-        Vec3A::from(origin.as_vec3()),
-        Vec3A::from(direction.as_vec3()),
-    )
 }
 
 /// A ray in the sheared frame of the watertight test: its direction is the largest axis.

@@ -17,7 +17,8 @@ use glam::DVec2;
 /// snapping, below the thinnest cell by twenty times.
 const ON_SIDE: f64 = 4e-7;
 
-/// Relative depths and weights that differ by less are the same: a thousandth of what bounds promise.
+/// Relative depths (of an eye at infinity: `focal` times these) and weights that differ by less are the same: a thousandth of what
+/// bounds promise.
 const SAME: f64 = 1e-12;
 
 /// A connected region of the image on one part of a support, of one mesh component.
@@ -72,11 +73,12 @@ pub struct Bound {
 
 impl Bound {
     /// Whether two bounds at mixes of the same vertices differ by rounding only.
-    fn agrees(&self, other: &Bound) -> bool {
+    fn agrees(&self, other: &Bound, focal: f64) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= SAME;
+        let level = |a: f64, b: f64| (a - b).abs() <= SAME / focal;
         let weight = |v: usize| other.anchor.terms().find(|t| t.0 == v).map_or(0.0, |t| t.1);
-        near(self.lower, other.lower)
-            && near(self.upper, other.upper)
+        level(self.lower, other.lower)
+            && level(self.upper, other.upper)
             && self.anchor.terms().all(|(v, w)| near(w, weight(v)))
     }
 }
@@ -356,7 +358,7 @@ fn bounds(
     }
     // Cells that share a corner agree there, unless merging thin cells has moved it off their side.
     keyed.sort_by(|(k, a), (l, b)| k.cmp(l).then(a.lower.total_cmp(&b.lower)));
-    keyed.dedup_by(|(l, b), (k, a)| k == l && a.agrees(b));
+    keyed.dedup_by(|(l, b), (k, a)| k == l && a.agrees(b, map.plane.focal));
     needed_first(keyed.into_iter().map(|x| x.1).collect(), groups, field)
 }
 

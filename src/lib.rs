@@ -33,7 +33,8 @@
 //!
 //! `o` eye; `q` a ray as a point of the image plane; `z` depth along the plane's forward axis; `lambda` distance along the ray,
 //! `lambda0` that of the model; `s = lambda / lambda0 = z / z0` relative depth; `x = ln s`; `mu_g` scale of group `g`,
-//! `m_g = ln mu_g`; `w` vertex weight. Millimetres, radians and f64 unless a name says otherwise; z is up.
+//! `m_g = ln mu_g`; `w` vertex weight. Millimetres, radians and f64 unless a name says otherwise; z is up. An eye at infinity is
+//! one [`geom::FAR_MM`] away whose image is measured as from [`geom::READING_MM`]: only tolerances in log depth know the difference.
 //!
 //! # Invariants
 //!

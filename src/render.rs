@@ -332,13 +332,21 @@ fn captions(
     put(columns[0], top, &format!("{}: the target", view.name), head);
     put(columns[0], below, &files.join(", "), body);
     let DVec3 { x, y, z } = view.eye.round() + 0.0;
-    put(columns[1], top, "the forest from its eye", head);
-    let eye = format!("{x:.0}, {y:.0}, {z:.0} mm").replace('-', "\u{2212}");
+    let (title, eye) = if view.orthographic {
+        let DVec3 { x, y, z } = (100.0 * view.from()).round() / 100.0 + 0.0;
+        let from = format!("parallel rays from {x}, {y}, {z}");
+        ("the forest by parallel rays", from)
+    } else {
+        let eye = format!("eye at {x:.0}, {y:.0}, {z:.0} mm");
+        ("the forest from its eye", eye)
+    };
+    put(columns[1], top, title, head);
+    let eye = eye.replace('-', "\u{2212}");
     put(
         columns[1],
         below,
         &format!(
-            "eye at {eye}; {:.2} % of the target's rays meet it",
+            "{eye}; {:.2} % of the target's rays meet it",
             floor2(100.0 * likeness.hit)
         ),
         body,

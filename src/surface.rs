@@ -318,7 +318,14 @@ fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {
             env!("CARGO_PKG_VERSION"),
             view.name
         ),
-        format!("eye {x} {y} {z}"),
+        if view.orthographic {
+            let DVec3 { x: a, y: b, z: c } = view.from();
+            format!(
+                "eye {x} {y} {z}, which stands for one at infinity in direction {a} {b} {c}: rays are parallel, lambda0 - lambda is the displacement along them towards the eye"
+            )
+        } else {
+            format!("eye {x} {y} {z}")
+        },
         "relief on a support: eye + (vertex - eye) / mu, where group is not -1".to_owned(),
         format!(
             "lambda distance from the eye, lambda0 in the model; lambda_min and lambda_max bounds of lambda, 0 and {UNBOUNDED:e} where there are none"

@@ -1,5 +1,6 @@
 //! What one eye is to see.
 
+use crate::geom::ImagePlane;
 use crate::mesh::{Original, TriMesh};
 use glam::{DMat4, DVec3};
 use std::sync::Arc;
@@ -60,12 +61,28 @@ pub struct View {
     pub name: String,
     pub eye: DVec3,
     pub look_at: DVec3,
+    /// Whether the eye stands for one at infinity, whose rays are parallel; then it is [`FAR_MM`](crate::geom::FAR_MM) away.
+    pub orthographic: bool,
     pub models: Vec<PlacedModel>,
     /// sRGB.
     pub colour: [u8; 3],
 }
 
 impl View {
+    /// The projection of its eye.
+    pub fn plane(&self) -> ImagePlane {
+        if self.orthographic {
+            ImagePlane::from_afar(self.eye, self.look_at)
+        } else {
+            ImagePlane::looking_at(self.eye, self.look_at)
+        }
+    }
+
+    /// Unit vector towards the eye.
+    pub fn from(&self) -> DVec3 {
+        (self.eye - self.look_at).normalize_or_zero()
+    }
+
     /// All models as one mesh, in place.
     pub fn target(&self) -> TriMesh {
         let mut all = TriMesh::default();

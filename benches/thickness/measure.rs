@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use pillarforest::diag::Diagnostic;
-use pillarforest::geom::ImagePlane;
 use pillarforest::groups::groups;
 use pillarforest::mimic::{Energy, depths};
 use pillarforest::relief::{Relief, relief};
@@ -24,7 +23,7 @@ pub type Errors = [f64; 3];
 pub fn seen(scene: &Scene) -> Result<Vec<Seen>, String> {
     let field = SupportField::new(&scene.supports);
     let map = |view: &View| {
-        let plane = ImagePlane::looking_at(view.eye, view.look_at);
+        let plane = view.plane();
         let target = Target::new(view.target(), &plane).ok_or("models beside the eye")?;
         let map = view_map(plane, &target, &field).map_err(|e| e.to_string())?;
         Ok(Seen { target, map })

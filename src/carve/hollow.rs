@@ -33,7 +33,7 @@ pub fn hollow(
     cells: &[u32],
     bed: f64,
 ) -> Result<Boolean, BooleanError> {
-    let scale = slab.plane(map.plane.forward, 0.0);
+    let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
     let rings = shape(map, slab, support, cells, [bed, scale]);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
     frustum(map, slab, &rings, scale, floor)
@@ -48,7 +48,7 @@ pub fn shell_hollow(
     bed: f64,
     floor: impl Fn(u32, DVec2) -> f64,
 ) -> Result<Boolean, BooleanError> {
-    let scale = slab.plane(map.plane.forward, 0.0);
+    let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
     let mut depth = vec![None; map.cells.len()];
     for c in cells {
         depth[*c as usize] = Some(map.triangle(*c as usize).map(|q| floor(*c, q)));

@@ -316,7 +316,7 @@ impl Cell {
         let ways = (0..AROUND).flat_map(|k| SHARES.map(|share| (k, share)));
         ways.into_iter().any(|(k, share)| {
             let turn = std::f64::consts::TAU * k as f64 / AROUND as f64;
-            let beside = q + DVec2::from_angle(turn) * share * SEAM_MM / wanted;
+            let beside = q + DVec2::from_angle(turn) * share * SEAM_MM / plane.scale(wanted);
             let direction = plane.direction(beside);
             let weights = crate::geom::barycentric(a, b, c, beside).to_array();
             let hit = finished.whole.first_hit(plane.eye, direction);

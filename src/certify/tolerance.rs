@@ -38,6 +38,13 @@
 //! piece keeping its place in depth: all distances grow by the same `t`, rays and cuts staying what they are. The distance
 //! wanted is the eye's own to what it looks at plus the `t` at which
 //! `65 mm |n . right| (1/(a + t) - 1/(b + t))` is ten arc-minutes at the worst cut: about the root of `65 mm |a - b| / angle`.
+//!
+//! # An eye at infinity
+//!
+//! It cannot move, but turn about the object; angles are told as from the reading distance `R` ([`READING_MM`]). A cut between depths `a`
+//! and `b` then opens by `|n . e| |b - a| / R^2` for an eye at `R` that moves by `e`, which is turned by `e / R`. Coming nearer, an eye
+//! sees what parallel rays do not: at the distance `D`, a cut that lies `x` beside the line of sight, across itself, opens by
+//! `x |b - a| / D^2`. From where that is ten arc-minutes at the worst cut on the forest is one picture. Two eyes are not judged.
 
 mod confirm;
 mod sides;
@@ -45,7 +52,7 @@ mod sides;
 pub use confirm::{Opened, opened};
 
 use crate::bvh::Bvh;
-use crate::geom::ImagePlane;
+use crate::geom::{ImagePlane, READING_MM};
 use crate::mesh::TriMesh;
 use crate::relief::Relief;
 use crate::steps::UNSEEN_RAD;
@@ -54,7 +61,7 @@ use crate::view::View;
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 use serde::Serialize;
-use sides::{LEAST, Side, critical, sides};
+use sides::{Side, critical, least, sides};
 
 /// An opening that does not break the picture yet, radians: ten arc-minutes, a third of the moon.
 pub const ONE_PICTURE_RAD: f64 = 5.0 * UNSEEN_RAD;
@@ -69,10 +76,13 @@ const FAR_FROM_WORST: f64 = 1.0 / 16.0;
 const SLOWER: f64 = 1.5;
 /// The eyes are never brought nearer to the nearest piece than this share of its distance.
 const NEAREST_SHARE: f64 = 0.1;
+/// As from the reading distance, how far an eye at infinity is followed, millimetres: by 60 degrees, where all but edges of a relief is gone.
+const MOST_TURNED_MM: f64 = 1.732 * READING_MM;
 /// Farther than this the two eyes are not sought, millimetres: a kilometre.
 const FARTHEST_MM: f64 = 1e6;
 
-/// Movements of an eye, millimetres to either side; none if no cut would ever open.
+/// Movements of an eye, millimetres to either side; none if no cut would ever open. Of an eye at infinity those of one at the reading
+/// distance that turns as far, by 60 degrees at most, and none along the line of sight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
     /// Along the image's right, which is level.
@@ -81,6 +91,24 @@ pub struct Movement {
     pub up: Option<f64>,
     /// Along the line of sight.
     pub fore: Option<f64>,
+}
+
+/// By how much an eye at infinity may turn about what it sees, degrees to either side; none if no cut would ever open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Turn {
+    pub side: Option<f64>,
+    pub up: Option<f64>,
+}
+
+impl Turn {
+    /// That of an eye at the reading distance that moves so.
+    fn of(moved: &Movement) -> Self {
+        let turned = |mm: f64| (mm / READING_MM).atan().to_degrees();
+        Self {
+            side: moved.side.map(turned),
+            up: moved.up.map(turned),
+        }
+    }
 }
 
 /// In which direction an eye moves.
@@ -166,7 +194,15 @@ pub struct Tolerance {
     pub eye_tolerance_mm: Movement,
     /// Until it opens by ten.
     pub one_picture_mm: Movement,
-    /// From the object, from where two eyes see it as one.
+    /// The same as angles, of an eye at infinity only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye_tolerance_deg: Option<Turn>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one_picture_deg: Option<Turn>,
+    /// From the object, from where on an eye sees one picture that was made for an eye at infinity; none if anywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one_picture_from_mm: Option<f64>,
+    /// From the object, from where two eyes see it as one; none of an eye at infinity.
     pub stereo_distance_mm: Option<f64>,
     pub worst_cuts: Vec<WorstCut>,
 }
@@ -184,7 +220,11 @@ pub fn tolerance(
     let mut worst_cuts = Vec::new();
     let mut movement = |angle: f64| {
         let [side, up, fore] = Way::ALL.map(|way| {
-            let (moved, side) = movement_until(&sides, map.points.len(), way.axis(plane), angle)?;
+            if way == Way::Fore && plane.is_parallel() {
+                return None;
+            }
+            let found = movement_until(&sides, map, way.axis(plane), angle);
+            let (moved, side) = found.filter(|f| !plane.is_parallel() || f.0 < MOST_TURNED_MM)?;
             worst_cuts.push(worst(&side, way, moved, angle, plane, supports));
             Some(moved)
         });
@@ -192,19 +232,33 @@ pub fn tolerance(
     };
     let eye_tolerance_mm = movement(UNSEEN_RAD);
     let one_picture_mm = movement(ONE_PICTURE_RAD);
-    Tolerance {
+    let found = Tolerance {
         eye_tolerance_mm,
         one_picture_mm,
-        stereo_distance_mm: stereo_distance(view, map, &sides),
         worst_cuts,
+        ..Tolerance::default()
+    };
+    if plane.is_parallel() {
+        return Tolerance {
+            eye_tolerance_deg: Some(Turn::of(&eye_tolerance_mm)),
+            one_picture_deg: Some(Turn::of(&one_picture_mm)),
+            one_picture_from_mm: one_picture_from(map, &sides),
+            ..found
+        };
+    }
+    Tolerance {
+        stereo_distance_mm: stereo_distance(view, map, &sides),
+        ..found
     }
 }
 
-/// How far the eye may move along `axis` and against it until the worst cut opens by `angle`, and that cut's longest side. `points`
-/// is the number of the map's image points.
-fn movement_until(sides: &[Side], points: usize, axis: DVec3, angle: f64) -> Option<(f64, Side)> {
+/// How far the eye may move along `axis` and against it until the worst cut opens by `angle`, and that cut's longest side; both of an
+/// eye at infinity as from the reading distance.
+fn movement_until(sides: &[Side], map: &ViewMap, axis: DVec3, angle: f64) -> Option<(f64, Side)> {
+    let (points, focal) = (map.points.len(), map.plane.focal);
+    let angle = angle / focal;
     let rate = |s: &Side| s.normal.dot(axis).abs() * s.excess(0.0);
-    let first = critical(sides, points, rate, angle).filter(|c| c.rate > LEAST)?;
+    let first = critical(sides, points, rate, angle).filter(|c| c.rate > least(&map.plane))?;
     let linear = angle / first.rate;
     let near = sides
         .iter()
@@ -223,7 +277,7 @@ fn movement_until(sides: &[Side], points: usize, axis: DVec3, angle: f64) -> Opt
             None => low = middle,
         }
     }
-    Some((high, found))
+    Some((high / focal, found))
 }
 
 fn worst(
@@ -283,14 +337,40 @@ fn stereo_distance(view: &View, map: &ViewMap, sides: &[Side]) -> Option<f64> {
     Some(own + high)
 }
 
+/// See the module; none if no cut ever opens.
+fn one_picture_from(map: &ViewMap, sides: &[Side]) -> Option<f64> {
+    let plane = &map.plane;
+    let far = plane.focal * READING_MM;
+    // The ray of a side leans from the line of sight as its plane's normal does from the image.
+    let beside = |s: &Side| far * s.normal.dot(plane.forward).abs();
+    let opens = |distance: f64| {
+        let rate = |s: &Side| beside(s) * s.excess(0.0) * (far / distance).powi(2);
+        let speck = ONE_PICTURE_RAD * distance / far;
+        critical(sides, map.points.len(), rate, speck).is_some_and(|c| c.rate > ONE_PICTURE_RAD)
+    };
+    let (mut low, mut high) = (1.0, far);
+    if !opens(low) {
+        return None;
+    }
+    for _ in 0..2 * HALVINGS {
+        let middle = (low * high).sqrt();
+        if opens(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(high)
+}
+
 /// Measures the worst cuts by rays at the finished forest, whose `bvh` is given, and writes down what they show.
 pub fn confirm(tolerance: &mut Tolerance, plane: &ImagePlane, forest: &TriMesh, bvh: &Bvh) {
     for worst in &mut tolerance.worst_cuts {
-        let e = worst.moved_mm * worst.movement.axis(plane);
+        let e = plane.focal * worst.moved_mm * worst.movement.axis(plane);
         let [one, other] = [e, -e].map(|e| opened(&worst.cut, plane.eye, e, forest, bvh));
         let confirmed = |e: DVec3, measured: f64| Confirmed {
-            predicted_arcmin: arcmin(worst.cut.opening(e)),
-            measured_arcmin: arcmin(measured),
+            predicted_arcmin: arcmin(plane.focal * worst.cut.opening(e)),
+            measured_arcmin: arcmin(plane.focal * measured),
         };
         let (apart, gap, overlap) = if one.gap >= other.gap {
             (e, one.gap, other.overlap)

@@ -24,12 +24,14 @@ pub fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tol
     found
 }
 
-/// How far eyes may move on the level with the picture still one, millimetres; none where nothing ever opens.
+/// How far eyes may move on the level with the picture still one, millimetres; none where nothing ever opens, and for eyes at infinity.
 pub fn rooms(certificates: &[CertificateReport]) -> Vec<Option<f64>> {
     let room = |c: &CertificateReport| {
         let Movement { side, fore, .. } = c.tolerance.one_picture_mm;
         side.into_iter().chain(fore).reduce(f64::min)
     };
+    let has_place = |c: &&CertificateReport| c.tolerance.one_picture_deg.is_none();
+    let room = |c: &CertificateReport| Some(c).filter(has_place).and_then(room);
     certificates.iter().map(room).collect()
 }
 

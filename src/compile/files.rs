@@ -8,8 +8,10 @@ use crate::carve::Forest;
 use crate::diagram::plan;
 use crate::diagram::section::groups_sheet;
 use crate::formats::{
-    Camera, Metadata, Part, write_3mf, write_glb, write_stl, write_surface_obj, write_surface_ply,
+    Camera, Lens, Metadata, Part, write_3mf, write_glb, write_stl, write_surface_obj,
+    write_surface_ply,
 };
+use crate::geom::FAR_MM;
 use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
@@ -116,13 +118,22 @@ pub fn section_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
     views.filter_map(sheet).flatten().collect()
 }
 
+/// How far from what is seen the camera of an eye at infinity stands, millimetres: any place outside of all forests will do.
+const CAMERA_MM: f64 = 1000.0;
+
 fn view_camera(view: &View) -> Camera {
     let (plane, half) = camera(view);
+    let (back, lens) = if view.orthographic {
+        (FAR_MM - CAMERA_MM, Lens::Orthographic(half * FAR_MM))
+    } else {
+        (0.0, Lens::Perspective(2.0 * half.atan()))
+    };
+    let eye = view.eye + back * plane.forward;
     Camera {
         name: view.name.clone(),
-        eye: view.eye,
-        look_at: view.eye + plane.forward,
-        fov: 2.0 * half.atan(),
+        eye,
+        look_at: eye + plane.forward,
+        lens,
     }
 }
 

@@ -6,7 +6,6 @@ use crate::certify::coverage::{Coverage, coverage};
 use crate::contest::{Claim, Loss};
 use crate::diag::Diagnostic;
 use crate::diagram::section::{Section, section};
-use crate::geom::ImagePlane;
 use crate::groups::{Groups, groups, without};
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
@@ -58,7 +57,7 @@ pub fn unsettled(sights: &[Sight], shapes: &[Shape]) -> Vec<Diagnostic> {
 /// If the models do not lie before the eye, nothing of them is seen, or no support carries them.
 pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Diagnostic>> {
     let failed = |text: String| vec![Diagnostic::error(format!("view \"{}\": {text}", view.name))];
-    let plane = ImagePlane::looking_at(view.eye, view.look_at);
+    let plane = view.plane();
     let target = Target::new(view.target(), &plane)
         .ok_or_else(|| failed("part of its models lies beside or behind the eye".into()))?
         .marked(view.marks());

@@ -18,11 +18,15 @@ pub fn eyes(
     numbers: &[String],
 ) {
     let stands: Vec<(DVec2, bool)> = views.iter().map(|v| page.stand(v.eye.truncate())).collect();
-    let ways: Vec<DVec2> = views
-        .iter()
-        .zip(&stands)
-        .map(|(v, s)| page.place(v.look_at.truncate()) - page.place(s.0))
-        .collect();
+    let way = |(v, s): (&View, &(DVec2, bool))| {
+        let from = if v.orthographic {
+            v.eye.truncate()
+        } else {
+            s.0
+        };
+        page.place(v.look_at.truncate()) - page.place(from)
+    };
+    let ways: Vec<DVec2> = views.iter().zip(&stands).map(way).collect();
     let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
     let mut taken: Vec<Block> = Vec::new();
     let room = |k: usize| rooms.get(k).copied().flatten();
@@ -38,8 +42,12 @@ pub fn eyes(
     let views = views.iter().zip(&stands).zip(&ways);
     for (k, ((view, (stand, far)), &ahead)) in views.enumerate() {
         let at = page.place(*stand);
-        arrow(drawing, page, at, ahead, *far, view.colour);
-        eye_symbol(drawing, at, EYE * page.u, view.colour);
+        if view.orthographic && *far {
+            rays(drawing, page, at, ahead, view.colour);
+        } else {
+            arrow(drawing, page, at, ahead, *far, view.colour);
+            eye_symbol(drawing, at, EYE * page.u, view.colour);
+        }
         let mut clear = EYE;
         if let Some(room) = room(k) {
             room_of_eye(drawing, page, at, room, view.colour);
@@ -108,6 +116,14 @@ pub fn arrow(
     );
 }
 
+/// Parallel arrows in the place of an eye at infinity.
+fn rays(drawing: &mut Drawing, page: &Page, at: DVec2, ahead: DVec2, colour: [u8; 3]) {
+    for shift in [-1.0, 0.0, 1.0] {
+        let start = at + page.u * (shift * 0.8 * EYE * ahead.perp() - 8.0 * ahead);
+        arrow(drawing, page, start, ahead, false, colour);
+    }
+}
+
 /// An upright eye of half width `r`.
 pub fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
     let point = |x: f64, y: f64| at + r * DVec2::new(x, y);
@@ -152,10 +168,11 @@ fn label(
     let most = page.widest_label;
     let note = page.style(3.1, Face::Light, QUIET, Anchor::Middle);
     let distance = length(view.eye.distance(view.look_at));
-    let line = if far {
-        format!("{distance} away")
-    } else {
-        distance
+    let line = match (view.orthographic, far) {
+        (true, true) => "parallel rays from here".to_owned(),
+        (true, false) => "parallel rays from above".to_owned(),
+        (false, true) => format!("{distance} away"),
+        (false, false) => distance,
     };
     let half = DVec2::new(
         width(text, name.size, name.face)

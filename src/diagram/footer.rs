@@ -7,7 +7,9 @@ use crate::diagram::lettering::Face;
 use crate::diagram::page::{
     BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, pale,
 };
+use crate::diagram::sight::Sight;
 use crate::support::SupportKind;
+use crate::view::View;
 use glam::DVec2;
 
 /// Columns of the table, layout units.
@@ -55,26 +57,18 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
             ..body
         };
         drawing.text_within(page.at(NAME, y + 2.2), &view.name, 36.0 * page.u, name);
-        let eye = format!(
-            "{}, {}, {}",
-            plain(view.eye.x),
-            plain(view.eye.y),
-            plain(view.eye.z)
-        );
+        let eye = if view.orthographic {
+            let [x, y, z] = view.from().to_array().map(finer);
+            format!("infinity, from {x}, {y}, {z}")
+        } else {
+            let [x, y, z] = view.eye.to_array().map(plain);
+            format!("{x}, {y}, {z}")
+        };
         drawing.text(page.at(EYE, y + 2.2), &eye, body);
         drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));
-        // Rounded down: a gap, however thin, never reads as 100 %.
-        let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
-        drawing.text(
-            page.at(ANGLE, y + 2.2),
-            &format!("{:.1}°", sight.width().to_degrees()),
-            right(body),
-        );
-        drawing.text(
-            page.at(COVERED, y + 2.2),
-            &format!("{covered} %"),
-            right(body),
-        );
+        let (wide, covered) = shares(view, sight);
+        drawing.text(page.at(ANGLE, y + 2.2), &wide, right(body));
+        drawing.text(page.at(COVERED, y + 2.2), &covered, right(body));
     }
 }
 
@@ -83,13 +77,43 @@ fn plain(x: f64) -> String {
     format!("{}", (10.0 * x).round() / 10.0 + 0.0).replace('-', "\u{2212}")
 }
 
-/// Where the eyes really are; only if the map could not show it.
+/// Two decimals at most; never -0.
+fn finer(x: f64) -> String {
+    format!("{}", (100.0 * x).round() / 100.0 + 0.0).replace('-', "\u{2212}")
+}
+
+/// How wide a view's models are, and how much of that pillars cover; dashes if it has no width in plan.
+fn shares(view: &View, sight: &Sight) -> (String, String) {
+    if sight.intervals.is_empty() {
+        return ("\u{2013}".to_owned(), "\u{2013}".to_owned());
+    }
+    // Rounded down: a gap, however thin, never reads as 100 %.
+    let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
+    (width(view, sight), format!("{covered} %"))
+}
+
+/// How wide the models are: an angle, or a length as parallel rays have it.
+fn width(view: &View, sight: &Sight) -> String {
+    if view.orthographic {
+        let distance = sight.eye.distance(view.look_at.truncate());
+        return format!("{:.0} mm", sight.width() * distance);
+    }
+    format!("{:.1}°", sight.width().to_degrees())
+}
+
+/// Where the eyes really are; only if the map could not show it. Those at infinity are nowhere.
 fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    if !facts.views.iter().any(|v| page.stand(v.eye.truncate()).1) {
+    let near = |v: &&View| !v.orthographic;
+    if !facts
+        .views
+        .iter()
+        .filter(near)
+        .any(|v| page.stand(v.eye.truncate()).1)
+    {
         return;
     }
     let (lo, hi) = (page.at(BOX.0, TABLE - 4.0), page.at(BOX.1, TABLE + 44.0));
-    let eyes = || facts.views.iter().map(|v| v.eye.truncate());
+    let eyes = || facts.views.iter().filter(near).map(|v| v.eye.truncate());
     let least = eyes().fold(page.centre - page.radius, DVec2::min);
     let most = eyes().fold(page.centre + page.radius, DVec2::max);
     let scale = 0.86 * ((hi - lo) / (most - least)).min_element();
@@ -103,7 +127,8 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         let points: Vec<DVec2> = support.outline().iter().map(|p| place(*p)).collect();
         drawing.polygon(&points, Some(BASE), Some(Pen::new(HAIR, 0.2 * page.u)));
     }
-    for (sight, view) in facts.sights.iter().zip(facts.views) {
+    let sights = facts.sights.iter().zip(facts.views);
+    for (sight, view) in sights.filter(|(_, v)| near(v)) {
         for runs in &sight.intervals {
             let hits = runs.iter().flat_map(|r| r.hits.iter());
             let free = sight.eye.distance(page.centre) + page.radius;
@@ -124,6 +149,7 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     facts
         .views
         .iter()
+        .filter(near)
         .for_each(|v| eye_symbol(drawing, place(v.eye.truncate()), 2.3 * page.u, v.colour));
     let text = format!("overview, 1 : {:.1}", 1.0 / scale);
     drawing.text(

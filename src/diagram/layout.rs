@@ -154,11 +154,11 @@ fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
         let side = 1.3 * back.perp();
         let head = [tip, tip + 2.6 * back + side, tip + 2.6 * back - side];
         drawing.polygon(&head, Some(ink), None);
-        let text = format!(
-            "{} {}",
-            view.name,
-            length(view.eye.truncate().distance(centre))
-        );
+        let distance = match view.orthographic {
+            true => "parallel rays".to_owned(),
+            false => length(view.eye.truncate().distance(centre)),
+        };
+        let text = format!("{} {distance}", view.name);
         let half = width(&text, SMALL, Face::Regular) / 2.0;
         // Beside an upright arrow, beyond one that lies.
         let at = if way.x.abs() < 0.7 {

@@ -12,6 +12,9 @@ use std::f64::consts::{PI, TAU};
 /// Step off a tangent direction, radians: hits the pillar surely, moves a point 1 m away by 1 nm.
 const NUDGE: f64 = 1e-9;
 
+/// Parallel rays whose level part is shorter than this (the sine of 3 degrees) come from straight above.
+const LEAST_LEVEL: f64 = 0.05;
+
 /// Longest angular step of a free edge, radians, so that arcs look round.
 const ARC_STEP: f64 = 0.01;
 
@@ -54,7 +57,11 @@ impl Sight {
             .enumerate()
             .filter_map(|(k, s)| Shadow::new(k, s, eye, ahead))
             .collect();
-        let spans = model_spans(view, eye, ahead);
+        let spans = if is_upright(view) {
+            Vec::new()
+        } else {
+            model_spans(view, eye, ahead)
+        };
         let intervals = spans
             .into_iter()
             .map(|span| runs(span, &pillars, eye, ahead))
@@ -140,6 +147,11 @@ impl Sight {
             at * (1.0 + layer.back / distance),
         ]
     }
+}
+
+/// Whether a view's rays all come from straight above, so that a plan shows nothing of them.
+fn is_upright(view: &View) -> bool {
+    view.orthographic && view.from().truncate().length() < LEAST_LEVEL
 }
 
 /// A pillar as one eye sees it in plan.

@@ -6,7 +6,7 @@ use crate::formats::Part;
 use crate::mesh::TriMesh;
 use glam::{DMat3, DQuat, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
-use gltf_json::camera::{Perspective, Type as CameraType};
+use gltf_json::camera::{Orthographic, Perspective, Type as CameraType};
 use gltf_json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::scene::UnitQuaternion;
@@ -19,8 +19,16 @@ pub struct Camera {
     pub name: String,
     pub eye: DVec3,
     pub look_at: DVec3,
-    /// Vertical field of view of the square picture, radians.
-    pub fov: f64,
+    pub lens: Lens,
+}
+
+/// What a camera's square picture holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Vertical field of view, radians.
+    Perspective(f64),
+    /// By parallel rays: half the picture's side, millimetres.
+    Orthographic(f64),
 }
 
 /// Position and normal of a corner, interleaved f32.
@@ -191,19 +199,37 @@ fn push_camera(root: &mut Root, camera: &Camera) -> Index<Node> {
     let right = forward.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::X);
     let rotation = DQuat::from_mat3(&DMat3::from_cols(right, right.cross(forward), -forward));
     let distance = eye.distance(target).max(1e-3);
-    let perspective = Perspective {
-        aspect_ratio: Some(1.0),
-        yfov: camera.fov as f32,
-        zfar: Some((distance * 10.0) as f32),
-        znear: (distance / 100.0) as f32,
-        extensions: None,
-        extras: Default::default(),
+    let (znear, zfar) = ((distance / 100.0) as f32, (distance * 10.0) as f32);
+    let (perspective, orthographic, type_) = match camera.lens {
+        Lens::Perspective(fov) => {
+            let lens = Perspective {
+                aspect_ratio: Some(1.0),
+                yfov: fov as f32,
+                zfar: Some(zfar),
+                znear,
+                extensions: None,
+                extras: Default::default(),
+            };
+            (Some(lens), None, CameraType::Perspective)
+        }
+        Lens::Orthographic(half) => {
+            let half = (half / 1000.0) as f32;
+            let lens = Orthographic {
+                xmag: half,
+                ymag: half,
+                zfar,
+                znear,
+                extensions: None,
+                extras: Default::default(),
+            };
+            (None, Some(lens), CameraType::Orthographic)
+        }
     };
     let index = root.push(gltf_json::Camera {
         name: Some(camera.name.clone()),
-        orthographic: None,
-        perspective: Some(perspective),
-        type_: Valid(CameraType::Perspective),
+        orthographic,
+        perspective,
+        type_: Valid(type_),
         extensions: None,
         extras: Default::default(),
     });

@@ -20,7 +20,7 @@ mod text;
 mod threemf;
 mod xml_3mf;
 
-pub use glb::{Camera, write_glb};
+pub use glb::{Camera, Lens, write_glb};
 pub use inspect::{Inspection, inspect};
 pub use read::{Model, load_model, load_original, read_mesh};
 pub use stl::write_stl;

@@ -6,7 +6,7 @@ mod image_plane;
 mod inscribed;
 mod planar;
 
-pub use image_plane::ImagePlane;
+pub use image_plane::{FAR_MM, ImagePlane, READING_MM};
 pub use inscribed::{Circle, inscribed};
 pub use planar::{
     barycentric, contains, gap, hull, narrowest, orient, polygon_area, segment_crossing, to_segment,

@@ -8,7 +8,8 @@
 //!
 //! What deviates: a finite element for every seen face in place of pixels; all bounds hold exactly, where the original scales to a wanted
 //! height; without its optional sharpening and its treatment of several frequencies, as in Fig 11. The unknown is the
-//! *change* of `ln z`, which is 0 for `alpha = 0` without silhouettes, so that the result is the linear compression itself.
+//! *change* of `ln z`, which is 0 for `alpha = 0` without silhouettes, so that the result is the linear compression itself. Of an eye at
+//! infinity it is `focal ln z`, whose gradient is the slope there.
 
 use super::compress::compressed;
 use super::program::{Program, Quadratic};
@@ -42,7 +43,8 @@ pub fn depths(
     groups: &Groups,
 ) -> Result<Depths, SolveError> {
     let field = Field::new(options.compression, target, map);
-    let shape: Vec<f64> = field.integrated()?.iter().map(|x| x.exp()).collect();
+    let change = field.integrated()?;
+    let shape: Vec<f64> = change.iter().map(|x| (x / map.plane.focal).exp()).collect();
     compressed(&shape, target, groups, NOT_AN_OPTIMUM)
 }
 
@@ -90,7 +92,7 @@ impl Field {
         let geometry = FaceGeometry::new(&image);
         let mut sides = Vec::with_capacity(3 * seen.len());
         for (n, f) in seen.iter().enumerate() {
-            let change = wanted_change(target, *f, alpha);
+            let change = wanted_change(target, map.plane.focal, *f, alpha);
             let (face, q) = (target.mesh.faces[*f], target.image_of(*f));
             sides.extend((0..3).map(|k| {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -167,9 +169,9 @@ fn perimeter(target: &Target, face: [u32; 3]) -> f64 {
 }
 
 /// How much the gradient of `ln z` in the image is to change on a face.
-fn wanted_change(target: &Target, face: usize, alpha: f64) -> DVec2 {
+fn wanted_change(target: &Target, focal: f64, face: usize, alpha: f64) -> DVec2 {
     let q = target.image_of(face);
-    let x = target.mesh.faces[face].map(|v| target.depth[v as usize].ln());
+    let x = target.mesh.faces[face].map(|v| focal * target.depth[v as usize].ln());
     let (a, b) = (q[1] - q[0], q[2] - q[0]);
     let (dx, dy) = (x[1] - x[0], x[2] - x[0]);
     let gradient = (dx * -b.perp() + dy * a.perp()) / a.perp_dot(b);
@@ -205,7 +207,7 @@ fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<Jump> {
             let weight = ends[0].distance(ends[1]) / edge / 2.0;
             for q in ends {
                 let [(a, za), (b, zb)] = [f, g].map(|f| anchor(target, f as usize, q));
-                let step = (zb / za).ln();
+                let step = map.plane.focal * (zb / za).ln();
                 if step.abs() > JUMP {
                     let far = b.terms().map(|(v, w)| (v, -w));
                     jumps.push(Jump {

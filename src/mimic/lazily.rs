@@ -4,7 +4,8 @@ use super::conditions::Condition;
 use super::program::{Program, Row};
 use super::solve::{SolveError, Solved, solve, solve_again};
 
-/// Log depth that a condition may be broken by: a quarter of a nanometre at 250 mm, above the rounding of sums.
+/// Log depth that a condition may be broken by, times the view's focal length: a quarter of a nanometre at 250 mm, above the rounding
+/// of sums.
 const BROKEN: f64 = 1e-9;
 /// Conditions are tightened by this share of a layer's width, 7 nm of 7 mm, which is above the residuals of the solver: so the
 /// result keeps them strictly.
@@ -20,6 +21,14 @@ pub struct Meaning<'a> {
     pub depths: &'a dyn Fn(&[f64]) -> DepthsAndScales,
     /// The row of a condition's tangents at the depths given.
     pub tangent: &'a dyn Fn(&Condition, &[f64]) -> Option<Row>,
+    /// Of the view's image plane.
+    pub focal: f64,
+}
+
+impl Meaning<'_> {
+    fn breaks(&self, c: &Condition, s: &[f64], mu: &[f64]) -> bool {
+        c.excess(s, mu) > BROKEN / self.focal
+    }
 }
 
 /// Solves `program`, whose rows hold the tangents of some conditions already, until all of `conditions` hold.
@@ -36,7 +45,7 @@ pub fn solve_lazily(
     let (mut rounds, before) = (0, program.rows.len());
     while rounds < ROUNDS {
         let (s, mu) = (meaning.depths)(&solution.u);
-        let broken = conditions.iter().filter(|c| c.excess(&s, &mu) > BROKEN);
+        let broken = conditions.iter().filter(|c| meaning.breaks(c, &s, &mu));
         let rows: Vec<Row> = broken.filter_map(|c| (meaning.tangent)(c, &s)).collect();
         if rows.is_empty() {
             break;
@@ -55,7 +64,7 @@ pub fn solve_lazily(
         }
     }
     let (s, mu) = (meaning.depths)(&solution.u);
-    let broken = conditions.iter().filter(|c| c.excess(&s, &mu) > BROKEN);
+    let broken = conditions.iter().filter(|c| meaning.breaks(c, &s, &mu));
     let solved = Solved {
         broken: broken.count(),
         rounds: solution.solved.rounds + rounds,

@@ -78,6 +78,7 @@ pub fn depths(
     let meaning = Meaning {
         depths: &depths,
         tangent: &tangent,
+        focal: map.plane.focal,
     };
     let (mut u, mut solved) = solve_lazily(&mut program, conditions, &meaning)?;
     for _ in 0..options.reweight {
@@ -227,15 +228,14 @@ impl Faces {
         opening: Option<&Opening>,
     ) -> Self {
         let geometry = FaceGeometry::new(&target.mesh);
-        let eye = map.plane.eye;
         let face = |f: usize| {
-            let [a, b, c] = target.mesh.corners(f).map(|p| p - eye);
-            let h = target.mesh.normal(f).dot(a).abs();
+            let corners = target.mesh.corners(f);
+            let h = target.mesh.normal(f).dot(corners[0] - map.plane.eye).abs();
             let area = geometry.areas[f];
             let weight = match weight {
                 FaceWeight::Area => area,
                 FaceWeight::SolidAngle => {
-                    let whole = crate::geom::solid_angle(a, b, c).abs();
+                    let whole = map.plane.solid_angle_of(corners).abs();
                     seen[f].max(LEAST_SEEN * whole)
                 }
             };

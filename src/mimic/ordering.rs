@@ -17,7 +17,8 @@ use crate::groups::{Anchor, Groups, anchor};
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec2;
 
-/// Pairs nearer than this share of the model's depth touch rather than overlap: an order between them only adds noise.
+/// Pairs nearer than this share of the model's depth (of the reading distance, for an eye at infinity) touch rather than overlap: an
+/// order between them only adds noise.
 const APART: f64 = 1e-4;
 /// Sheets nearer than this along a side of cells hang together there, millimetres: merging thin cells moves them by as much.
 pub const TOGETHER_MM: f64 = 0.02;
@@ -48,6 +49,7 @@ pub struct Orders {
 pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
     let finder = Finder {
         target,
+        apart: APART / map.plane.focal,
         lookup: FaceGroups::new(map, groups),
     };
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
@@ -125,6 +127,8 @@ type VertexEvent = ((u32, u32, bool), f64, Order);
 
 struct Finder<'a> {
     target: &'a Target,
+    /// Share of the depth.
+    apart: f64,
     lookup: FaceGroups,
 }
 
@@ -186,7 +190,7 @@ impl Finder<'_> {
             return Vec::new();
         }
         let at = faces.map(|f| anchor(self.target, f as usize, q));
-        let apart = APART * at[0].1.max(at[1].1);
+        let apart = self.apart * at[0].1.max(at[1].1);
         let orders = common.iter().filter_map(|g| order(at, *g, apart));
         orders.collect()
     }

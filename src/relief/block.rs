@@ -6,7 +6,7 @@
 //! must not swap order along a side (else a wall would cross itself). A region that touches itself in one point is pulled
 //! apart there by a hundredth of a millimetre.
 
-use crate::geom::{orient, segment_crossing};
+use crate::geom::{ImagePlane, orient, segment_crossing};
 use crate::mesh::TriMesh;
 use crate::viewmap::ViewMap;
 use glam::DVec2;
@@ -80,6 +80,7 @@ struct Fan {
 }
 
 struct Field {
+    plane: ImagePlane,
     /// Map indices of the local cells.
     cells: Vec<u32>,
     points: Vec<[u32; 3]>,
@@ -106,6 +107,7 @@ impl Field {
             .collect();
         let fan_of = vec![[u32::MAX; 3]; cells.len()];
         let mut field = Self {
+            plane: map.plane,
             cells: cells.to_vec(),
             points,
             depth,
@@ -426,7 +428,7 @@ impl Field {
         let home = self.fans[f].q;
         let corners = &self.fans[f].corners;
         let (c, k) = corners[0];
-        let length = by / self.depth[c as usize][k as usize];
+        let length = by / self.plane.scale(self.depth[c as usize][k as usize]);
         for share in [1.0, 0.5, 0.25] {
             let moved = home + direction.normalize_or_zero() * length * share;
             let upright = |&(c, k): &Corner| {

@@ -11,6 +11,7 @@ mod views;
 
 use super::Report;
 use crate::certify::camouflage::Camouflage;
+use crate::certify::tolerance::Tolerance;
 use crate::formats::markup::escaped;
 use crate::render::ViewPictures;
 use serde_json::Value;
@@ -117,20 +118,14 @@ impl Report {
     fn overview(&self) -> String {
         let row = |(k, v): (usize, &super::ViewReport)| {
             let c = v.certificate.as_ref();
-            let room = c.map(|c| {
-                (
-                    c.tolerance.eye_tolerance_mm.side,
-                    c.tolerance.one_picture_mm.side,
-                )
-            });
-            let (unseen, one) = room.unwrap_or_default();
+            let [unseen, one] = c.map_or([DASH; 2].map(str::to_owned), |c| room(&c.tolerance));
             let half = self.camouflage.get(k).and_then(|c| c.half_likeness_deg);
             [
                 format!("<a href=\"#view-{}\">{}</a>", k + 1, escaped(&v.name)),
                 measure_or(v.normal_error_deg.map(|e| e.mean), 2, "°", DASH),
                 c.map_or_else(|| DASH.into(), |c| percent(c.reaching)),
-                measure_or(unseen, 1, "mm", DASH),
-                measure_or(one, 1, "mm", DASH),
+                unseen,
+                one,
                 measure_or(
                     c.and_then(|c| c.tolerance.stereo_distance_mm),
                     0,
@@ -289,5 +284,14 @@ fn files(files: &[(&str, usize)]) -> String {
         table
     } else {
         format!("<section id=\"files\">\n<h2>Files</h2>\n{table}</section>\n")
+    }
+}
+
+/// How far an eye may move sideways, or turn if it is at infinity: unseen, and with one picture still.
+fn room(found: &Tolerance) -> [String; 2] {
+    match (&found.eye_tolerance_deg, &found.one_picture_deg) {
+        (Some(unseen), Some(one)) => [unseen, one].map(|t| measure_or(t.side, 2, "°", DASH)),
+        _ => [found.eye_tolerance_mm, found.one_picture_mm]
+            .map(|m| measure_or(m.side, 1, "mm", DASH)),
     }
 }

@@ -66,9 +66,15 @@ impl Default for Program {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ViewReport {
     pub name: String,
-    /// Where the eye stands and what it looks at, millimetres.
+    /// Where the eye stands and what it looks at, millimetres; for an eye at infinity a far point stands.
     pub eye: [f64; 3],
     pub look_at: [f64; 3],
+    /// Whether the eye is at infinity; then angles and movements are told as from 300 mm, where one reads.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub orthographic: bool,
+    /// Unit vector towards an eye at infinity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<[f64; 3]>,
     pub models: Vec<ModelReport>,
     /// Vertices and faces of the models together.
     pub vertices: usize,
@@ -272,6 +278,8 @@ impl ViewReport {
             name: view.name.clone(),
             eye: tidy(view.eye),
             look_at: tidy(view.look_at),
+            orthographic: view.orthographic,
+            from: view.orthographic.then(|| tidy(view.from())),
             models,
             vertices: view.models.iter().map(|m| m.mesh.vertices.len()).sum(),
             faces: view.models.iter().map(|m| m.mesh.faces.len()).sum(),

@@ -32,9 +32,31 @@ pub struct Slab {
 /// An eye as the checks see it.
 pub struct Eye {
     pub view: String,
-    pub at: DVec3,
+    pub stand: Stand,
     pub span: Span,
 }
+
+/// Where an eye is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stand {
+    At(DVec3),
+    /// At infinity, in this direction (unit).
+    Towards(DVec3),
+}
+
+impl Stand {
+    /// Whether two eyes are one.
+    fn is_like(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::At(a), Self::At(b)) => a.distance(b) < 1.0,
+            (Self::Towards(a), Self::Towards(b)) => a.distance(b) < SAME_WAY,
+            _ => false,
+        }
+    }
+}
+
+/// Directions that differ by less (radians) are one: a millimetre seen from a metre.
+const SAME_WAY: f64 = 1e-3;
 
 /// What of a forest is checked.
 pub struct Checked<'a> {
@@ -64,7 +86,10 @@ pub fn all(reader: &mut Reader, checked: &Checked, eyes: &[Eye], printer: &Print
     plate(reader, checked, printer);
     eye_pairs(reader, eyes);
     for eye in eyes {
-        let problem = place(eye, checked, reader.unit_name);
+        let problem = match eye.stand {
+            Stand::At(at) => place(eye, at, checked, reader.unit_name),
+            Stand::Towards(from) => below(eye, from, checked),
+        };
         reader.problems.extend(problem);
     }
 }
@@ -342,9 +367,13 @@ fn plate(reader: &mut Reader, checked: &Checked, printer: &Printer) {
 /// Two views cannot share an eye.
 fn eye_pairs(reader: &mut Reader, eyes: &[Eye]) {
     for (j, b) in eyes.iter().enumerate() {
-        if let Some(a) = eyes[..j].iter().find(|a| a.at.distance(b.at) < 1.0) {
+        if let Some(a) = eyes[..j].iter().find(|a| a.stand.is_like(b.stand)) {
+            let place = match b.stand {
+                Stand::At(_) => "place",
+                Stand::Towards(_) => "direction",
+            };
             reader.problems.push(
-                error_at(&b.span, format!("views \"{}\" and \"{}\" look from the same place: one eye cannot see two pictures", a.view, b.view))
+                error_at(&b.span, format!("views \"{}\" and \"{}\" look from the same {place}: one eye cannot see two pictures", a.view, b.view))
                     .label(format!("also the eye of \"{}\"", a.view))
                     .help("move one eye, or show both models in one view: `models: [\"a\", \"b\"]`"),
             );
@@ -374,12 +403,12 @@ pub fn direction(view: &str, eye: DVec3, look_at: DVec3, span: &Span) -> Option<
 }
 
 /// An eye must stand in the open, at a distance, above the base.
-fn place(eye: &Eye, checked: &Checked, unit: &str) -> Option<Diagnostic> {
+fn place(eye: &Eye, at: DVec3, checked: &Checked, unit: &str) -> Option<Diagnostic> {
     let base = checked.base;
-    let ground = eye.at.truncate();
+    let ground = at.truncate();
     let thickness = base.map_or(0.0, |b| b.thickness);
     if let Some(slab) = base {
-        if eye.at.z < -thickness {
+        if at.z < -thickness {
             return Some(
                 error_at(
                     &eye.span,
@@ -391,7 +420,7 @@ fn place(eye: &Eye, checked: &Checked, unit: &str) -> Option<Diagnostic> {
                 .help("z points up; the top of the base is z = 0"),
             );
         }
-        if eye.at.z <= 0.0 && shapes::contains(&slab.outline, ground) {
+        if at.z <= 0.0 && shapes::contains(&slab.outline, ground) {
             return Some(error_at(
                 &eye.span,
                 format!("the eye of view \"{}\" is inside the base", eye.view),
@@ -401,7 +430,7 @@ fn place(eye: &Eye, checked: &Checked, unit: &str) -> Option<Diagnostic> {
     let (distance, nearest) = nearest(checked, ground)?;
     let tops = checked.pillars.iter().map(|p| p.height);
     let tops = tops.chain(checked.room.map(|r| r.tops)).fold(0.0, f64::max);
-    if eye.at.z > tops || distance > 20.0 {
+    if at.z > tops || distance > 20.0 {
         return None;
     }
     let where_ = if distance <= 0.0 {
@@ -414,10 +443,32 @@ fn place(eye: &Eye, checked: &Checked, unit: &str) -> Option<Diagnostic> {
         format!("the eye of view \"{}\" is {where_} {nearest}", eye.view),
     )
     .label("an eye stands outside the forest, some hundred mm away");
-    if eye.at.length() < 20.0 {
+    if at.length() < 20.0 {
         problem = problem.help(format!("eyes are in {unit} like the rest of the scene: did you mean metres? Then write them times 1000"));
     }
     Some(problem)
+}
+
+/// An eye at infinity must not look from below, nor find its pillars to be found.
+fn below(eye: &Eye, from: DVec3, checked: &Checked) -> Option<Diagnostic> {
+    if checked.base.is_some() && from.z < 0.0 {
+        let text = format!(
+            "view \"{}\" looks from below the base: it sees only the underside",
+            eye.view
+        );
+        return Some(
+            error_at(&eye.span, text)
+                .help("z points up: `from: (0, -1, 0.2)` is from the front and a little above"),
+        );
+    }
+    if checked.mend || checked.room.is_some() {
+        let text = format!(
+            "view \"{}\" looks from infinity: pillars are found and mended only for eyes with a place",
+            eye.view
+        );
+        return Some(error_at(&eye.span, text).help("give it an `eye: (x, y, z)` some metres away, keep the layout that is found, and include it with `pillars: File(\"layout.ron\")`"));
+    }
+    None
 }
 
 /// What stands nearest to a point in plan, and how far away, millimetres.

@@ -72,13 +72,22 @@ impl Placing {
     pub fn matrix(&self, mesh: &TriMesh, unit: f64, eye: DVec3) -> DMat4 {
         match self {
             Placing::Matrix(matrix) => *matrix,
-            Placing::Fit(fit) => fit.matrix(mesh, unit, eye),
+            Placing::Fit(fit) => fit.matrix(mesh, unit, (eye - fit.at).truncate()),
+        }
+    }
+
+    /// The same for an eye at infinity, which in plan stands along `from`.
+    pub fn facing(&self, mesh: &TriMesh, unit: f64, from: DVec2) -> DMat4 {
+        match self {
+            Placing::Matrix(matrix) => *matrix,
+            Placing::Fit(fit) => fit.matrix(mesh, unit, from),
         }
     }
 }
 
 impl Fit {
-    fn matrix(&self, mesh: &TriMesh, unit: f64, eye: DVec3) -> DMat4 {
+    /// `to_eye` is where the eye is in plan, as a direction.
+    fn matrix(&self, mesh: &TriMesh, unit: f64, to_eye: DVec2) -> DMat4 {
         // In the upright frame x is the model's left-right, -y its front, z up.
         let upright =
             DMat3::from_cols((-self.front).cross(self.up), -self.front, self.up).transpose();
@@ -92,7 +101,7 @@ impl Fit {
             Size::Width(w) => w / extent.x,
             Size::Largest(l) => l / extent.max_element(),
         };
-        let to_eye = self.facing.unwrap_or((eye - self.at).truncate());
+        let to_eye = self.facing.unwrap_or(to_eye);
         let to_eye = if to_eye.length() > 1e-9 {
             to_eye.normalize()
         } else {

@@ -74,6 +74,7 @@ raw! {
     struct RawView, "a view `(name: \"front\", eye: (0, -300, 60), models: [\"owl\"])`" {
         name: String,
         eye: [f64; 3],
+        from: [f64; 3],
         look_at: [f64; 3],
         models: List<String>,
         colour: String,

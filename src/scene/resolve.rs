@@ -4,7 +4,7 @@
 //! After it: lengths are millimetres, names are unique and fit for files, numbers are finite and in range, meshes are
 //! in place, pillars neither overlap nor float, eyes stand in the open.
 
-use super::checks::{self, Eye};
+use super::checks::{self, Eye, Stand};
 use super::document::{self, Document};
 use super::forest::{self, Around};
 use super::placing::{self, Placing};
@@ -13,6 +13,7 @@ use super::reader::{Reader, Span, error_at, nearest, placed, printable, short, w
 use super::spanned::Field;
 use super::{defaults, detail, lexer, marks, names, options};
 use crate::diag::{Diagnostic, Severity, Warned};
+use crate::geom::FAR_MM;
 use crate::mesh::{Original, TriMesh};
 use crate::planner::Adjustment;
 use crate::scene::{Output, Scene};
@@ -47,7 +48,7 @@ struct Model {
 /// A view before its models are placed.
 struct Draft {
     name: String,
-    eye: DVec3,
+    stand: Stand,
     eye_span: Span,
     look_at: Option<(DVec3, Span)>,
     models: Vec<(String, Span)>,
@@ -149,10 +150,14 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     }
     lower(reader, models.as_deref_mut().unwrap_or_default(), &output);
     let adjusted = forest.adjusted(&around.views);
+    let upright = forest.most_pillars() > 0;
     let views = drafts
         .into_iter()
         .zip(&adjusted)
-        .map(|(draft, adjusted)| view(reader, draft, models.as_deref().unwrap_or(&[]), adjusted))
+        .map(|(draft, adjusted)| {
+            let models = models.as_deref().unwrap_or(&[]);
+            view(reader, draft, models, adjusted, upright)
+        })
         .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
     let (supports, brief) = forest.finished();
@@ -388,8 +393,7 @@ fn draft(
     let name = reader.required(&raw.name, "name", &format!("view {}", index + 1), span);
     let name = name.and_then(|(n, at)| names::checked(reader, n, &at, "view"));
     let owner = format!("view \"{}\"", name.as_deref().unwrap_or("?"));
-    reader.need(&raw.eye, "eye", &owner, span);
-    let eye = reader.point_field(&raw.eye, "eye");
+    let stand = stand(reader, raw, &owner, span);
     let look_at = reader
         .point_field(&raw.look_at, "look_at")
         .map(|(p, s)| (p.into(), s));
@@ -400,15 +404,47 @@ fn draft(
         Some((text, at)) => colour(reader, text, &at),
         None => Some(defaults::PALETTE[index % defaults::PALETTE.len()]),
     };
-    let (eye, eye_span) = eye?;
+    let (stand, eye_span) = stand?;
     Some(Draft {
         name: name?,
-        eye: eye.into(),
+        stand,
         eye_span,
         look_at,
         models: shown?,
         colour: colour?,
     })
+}
+
+/// Where a view's eye is: exactly one of two fields says so.
+fn stand(reader: &mut Reader, raw: &RawView, owner: &str, span: &Span) -> Option<(Stand, Span)> {
+    let Field::Given(from) = &raw.from else {
+        reader.need(&raw.eye, "eye", owner, span);
+        let (eye, at) = reader.point_field(&raw.eye, "eye")?;
+        return Some((Stand::At(eye.into()), at));
+    };
+    let from_span = reader.span(from);
+    if !matches!(raw.eye, Field::Missing) {
+        reader.problems.push(
+            error_at(&from_span, format!("{owner} has both `eye` and `from`"))
+                .label("an eye has a place or is at infinity")
+                .help("keep `eye: (x, y, z)` for a place, or `from: (x, y, z)` for parallel rays from a direction"),
+        );
+        return None;
+    }
+    let from = DVec3::from(*reader.value(from)?);
+    // A direction of any length, without unit; what is not finite has none.
+    let Some(way) = (from / from.abs().max_element()).try_normalize() else {
+        let text = format!(
+            "`from` is ({}, {}, {}); it must point somewhere",
+            from.x, from.y, from.z
+        );
+        reader.problems.push(
+            error_at(&from_span, text)
+                .help("it points from what is seen towards the eye: `from: (0, -1, 0.2)` is from the front and a little above"),
+        );
+        return None;
+    };
+    Some((Stand::Towards(way), from_span))
 }
 
 /// The models a view shows, each of which must exist and be named once.
@@ -471,20 +507,29 @@ fn colour(reader: &mut Reader, text: &str, span: &Span) -> Option<[u8; 3]> {
 fn eye(draft: &Draft) -> Eye {
     Eye {
         view: draft.name.clone(),
-        at: draft.eye,
+        stand: draft.stand,
         span: draft.eye_span.clone(),
     }
 }
 
 /// Places a view's models and completes it; models that failed to load are left out (their errors are noted already).
-fn view(reader: &mut Reader, draft: Draft, models: &[Model], adjusted: &Adjustment) -> View {
+fn view(
+    reader: &mut Reader,
+    draft: Draft,
+    models: &[Model],
+    adjusted: &Adjustment,
+    upright: bool,
+) -> View {
     let mut placed = Vec::new();
     for (name, _) in &draft.models {
         let Some(model) = models.iter().find(|m| m.name == *name) else {
             continue;
         };
         let Some(mesh) = &model.mesh else { continue };
-        let matrix = model.placing.matrix(mesh, model.unit, draft.eye);
+        let matrix = match draft.stand {
+            Stand::At(eye) => model.placing.matrix(mesh, model.unit, eye),
+            Stand::Towards(from) => model.placing.facing(mesh, model.unit, from.truncate()),
+        };
         let mesh = model.lowered.as_ref().unwrap_or(mesh).transformed(matrix);
         reader
             .problems
@@ -505,11 +550,16 @@ fn view(reader: &mut Reader, draft: Draft, models: &[Model], adjusted: &Adjustme
         .or_else(|| middle(&placed))
         .unwrap_or(DVec3::ZERO);
     placing::adjust(&mut placed, adjusted);
-    check_sight(reader, &draft, look_at, &placed);
+    let (eye, orthographic) = match draft.stand {
+        Stand::At(eye) => (eye, false),
+        Stand::Towards(from) => (look_at + FAR_MM * from, true),
+    };
+    check_sight(reader, (&draft, eye), look_at, &placed, upright);
     View {
         name: draft.name,
-        eye: draft.eye,
+        eye,
         look_at,
+        orthographic,
         models: placed,
         colour: draft.colour,
     }
@@ -519,8 +569,15 @@ fn middle(models: &[PlacedModel]) -> Option<DVec3> {
     placing::extent(models).map(|(lo, hi)| (lo + hi) / 2.0)
 }
 
-/// The eye must have a direction and every model must lie wholly in front of it. Says nothing about an eye that is wrong already.
-fn check_sight(reader: &mut Reader, draft: &Draft, look_at: DVec3, models: &[PlacedModel]) {
+/// The eye must have a direction, not straight up or down where supports are `upright`, and every model must lie wholly in front of it.
+/// Says nothing about an eye that is wrong already.
+fn check_sight(
+    reader: &mut Reader,
+    (draft, eye): (&Draft, DVec3),
+    look_at: DVec3,
+    models: &[PlacedModel],
+    upright: bool,
+) {
     let known = reader
         .problems
         .iter()
@@ -528,19 +585,17 @@ fn check_sight(reader: &mut Reader, draft: &Draft, look_at: DVec3, models: &[Pla
     if known || models.is_empty() {
         return;
     }
-    if let Some(problem) = checks::direction(&draft.name, draft.eye, look_at, &draft.eye_span) {
+    if let Some(problem) = checks::direction(&draft.name, eye, look_at, &draft.eye_span)
+        && (upright || matches!(draft.stand, Stand::At(_)))
+    {
         reader.problems.push(problem);
         return;
     }
-    let gaze = (look_at - draft.eye).normalize();
+    let gaze = (look_at - eye).normalize();
     for model in models {
-        let depths = model
-            .mesh
-            .vertices
-            .iter()
-            .map(|v| (*v - draft.eye).dot(gaze));
+        let depths = model.mesh.vertices.iter().map(|v| (*v - eye).dot(gaze));
         if depths.fold(f64::INFINITY, f64::min) < 1.0 {
-            let away = middle(std::slice::from_ref(model)).map_or(0.0, |m| draft.eye.distance(m));
+            let away = middle(std::slice::from_ref(model)).map_or(0.0, |m| eye.distance(m));
             reader.problems.push(
                 error_at(&draft.eye_span, format!("model \"{}\" is not wholly in front of the eye of view \"{}\": its middle is {} mm away", model.name, draft.name, short(away)))
                     .help("move the eye back, or make the model smaller: `place: Fit(height: 60)`"),

@@ -142,7 +142,8 @@ fn scene_sections() -> Vec<Section> {
         ]),
         section("view", "One eye and what it sees.", vec![
             field("name", "text", REQUIRED, "also the name of its picture: letters, digits, - and _"),
-            field("eye", "(x, y, z)", REQUIRED, "where the eye is"),
+            field("eye", "(x, y, z)", "see from", "where the eye is: either this or `from`"),
+            field("from", "(x, y, z)", "see eye", "the direction from which an eye at infinity looks, all of whose rays are parallel"),
             field("look_at", "(x, y, z)", "middle of its models", "centre of the view"),
             field("models", "[text, ...]", REQUIRED, "names of the models it sees"),
             field("colour", "text", "a colour-blind-safe palette", "\"#rrggbb\" for its reliefs, plan and legend"),

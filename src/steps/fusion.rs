@@ -4,7 +4,7 @@ use super::min_cut::BinaryEnergy;
 use super::patches::{Patch, Patches, Seam, mixed};
 use crate::mesh::DisjointSets;
 
-/// Log depths nearer than this are the same: a millionth of a millimetre.
+/// Log depths (of an eye at infinity: `focal` times these) nearer than this are the same: a millionth of a millimetre.
 const SAME: f64 = 1e-8;
 /// Levels of constant depth tried within one layer's width. At 4 the lines of the reference forest are 5 to 8 % longer, at 24 they
 /// are 1 to 5 % shorter for four times the work.
@@ -107,6 +107,11 @@ impl<'a> Functional<'a> {
         }
     }
 
+    /// Log depths nearer than this are the same.
+    fn same(&self) -> f64 {
+        SAME / self.patches.focal
+    }
+
     pub fn patches(&self) -> &Patches {
         self.patches
     }
@@ -119,7 +124,7 @@ impl<'a> Functional<'a> {
     /// Whether the patches of a seam hang together along all of it.
     fn closed(&self, s: &Seam, field: &Field) -> bool {
         let [a, b] = self.local(s);
-        s.hangs_together() && (0..2).all(|k| s.jump(k, &field[a], &field[b]).abs() <= SAME)
+        s.hangs_together() && (0..2).all(|k| s.jump(k, &field[a], &field[b]).abs() <= self.same())
     }
 
     /// The piece of every patch: those that hang together.
@@ -163,10 +168,10 @@ impl<'a> Functional<'a> {
             .flat_map(|s| self.local(s))
             .filter(|j| !but[*j])
             .map(|j| field[j].iter().sum::<f64>() / 3.0)
-            .filter(|y| (y - own[0]).abs() > SAME)
+            .filter(|y| (y - own[0]).abs() > self.same())
             .collect();
         levels.sort_by(f64::total_cmp);
-        levels.dedup_by(|a, b| (*a - *b).abs() <= SAME);
+        levels.dedup_by(|a, b| (*a - *b).abs() <= self.same());
         let old: Vec<[f64; 3]> = region.iter().map(|i| field[*i as usize]).collect();
         let set = |field: &mut Field, level: f64| {
             for i in region {
@@ -199,7 +204,7 @@ impl<'a> Functional<'a> {
     fn unary(&self, i: usize, y: &[f64; 3]) -> f64 {
         let p = self.patch(i);
         let (lo, hi) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
-        if p.even.0 <= lo && hi <= p.even.1 && hi - lo <= SAME {
+        if p.even.0 <= lo && hi <= p.even.1 && hi - lo <= self.same() {
             return 0.0;
         }
         let tilt: f64 = (0..3)
@@ -213,7 +218,7 @@ impl<'a> Functional<'a> {
                 (v - b.upper).max(b.lower - v).max(0.0)
             })
             .fold(0.0, f64::max);
-        let over = if over > SAME {
+        let over = if over > self.same() {
             over / self.patches.width
         } else {
             0.0
@@ -228,13 +233,13 @@ impl<'a> Functional<'a> {
         let end = |k: usize| {
             let (step, gap) = (s.jump(k, a, b), s.gaps[k]);
             if gap != 0.0 {
-                let wrong = self.prices.ordered && (step - gap) * gap.signum() > SAME;
+                let wrong = self.prices.ordered && (step - gap) * gap.signum() > self.same();
                 return if wrong { DISORDER } else { 0.0 };
             }
             let step = step.abs();
-            if step <= SAME {
+            if step <= self.same() {
                 0.0
-            } else if step > highest + SAME {
+            } else if step > highest + self.same() {
                 f64::INFINITY
             } else {
                 off * (self.prices.length + self.prices.height * step / self.patches.width)
@@ -276,8 +281,9 @@ impl<'a> Functional<'a> {
         proposal: &[(u32, [f64; 3])],
         variable: &mut [u32],
     ) -> Vec<u32> {
-        let differs =
-            |(i, y): &&(u32, [f64; 3])| (0..3).any(|k| (y[k] - field[*i as usize][k]).abs() > SAME);
+        let differs = |(i, y): &&(u32, [f64; 3])| {
+            (0..3).any(|k| (y[k] - field[*i as usize][k]).abs() > self.same())
+        };
         let members: Vec<(u32, [f64; 3])> = proposal.iter().filter(differs).copied().collect();
         for (v, (i, _)) in members.iter().enumerate() {
             variable[*i as usize] = v as u32;

@@ -22,7 +22,7 @@ pub struct StepLine {
     /// How far apart the two sides lie along the rays of both ends, millimetres.
     pub height_mm: [f64; 2],
     /// Difference of the two sides' inverse distances from the eye at both ends, 1/mm: the angle it opens by for each
-    /// millimetre the eye moves sideways.
+    /// millimetre the eye moves sideways. Of an eye at infinity as from the reading distance.
     pub parallax: [f64; 2],
     /// Length at the model's mean depth, millimetres.
     pub length_mm: f64,
@@ -111,6 +111,7 @@ pub fn lines(
         let ray = map.plane.direction(q).length();
         (z * ray, s / depths.mu[patch.group as usize])
     };
+    let focal = map.plane.focal;
     let mut lines = Vec::new();
     let mut torn = vec![false; patches.seams.len()];
     for (n, s) in tears(target, patches) {
@@ -122,7 +123,7 @@ pub fn lines(
         let line = StepLine {
             ends: s.line.map(|q| map.plane.direction(q)),
             height_mm: sides.map(|[a, b]| (a - b).abs()),
-            parallax: sides.map(|[a, b]| parallax(a, b).abs()),
+            parallax: sides.map(|[a, b]| parallax(a, b).abs() * focal * focal),
             length_mm: s.length_mm,
         };
         let cut = s.patches.map(|p| corners[p as usize]);

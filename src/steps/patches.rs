@@ -101,6 +101,10 @@ pub struct Patches {
     pub width: f64,
     /// Mean depth of the seen model, millimetres.
     pub depth: f64,
+    /// Millimetres that a unit of the image measures there.
+    pub scale: f64,
+    /// Of the image plane.
+    pub focal: f64,
 }
 
 impl Patches {
@@ -113,6 +117,7 @@ impl Patches {
     ) -> Self {
         let (keys, of_cell) = numbered(map, groups);
         let depth = mean_depth(target, map);
+        let scale = map.plane.scale(depth);
         let geometry = FaceGeometry::new(&target.mesh);
         let mut patches: Vec<Patch> = keys
             .iter()
@@ -123,8 +128,8 @@ impl Patches {
             add_cell(&mut patches[*i as usize], target, map, field, groups, c);
         }
         for p in &mut patches {
-            p.highest = highest(limits, target, p);
-            p.seen_mm2 *= depth * depth;
+            p.highest = highest(limits, target, map.plane.focal, p);
+            p.seen_mm2 *= scale * scale;
             let counted = p.seen_mm2 * target.face_weight(p.face as usize).powi(2);
             p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, counted);
         }
@@ -133,7 +138,7 @@ impl Patches {
             .flat_map(|p| p.points.iter().map(|b| b.upper - b.lower))
             .collect();
         widths.sort_by(f64::total_cmp);
-        let (seams, rims) = seams(target, map, &patches, &of_cell, depth);
+        let (seams, rims) = seams(target, map, &patches, &of_cell, scale);
         Self {
             seams,
             rims,
@@ -141,6 +146,8 @@ impl Patches {
             patches,
             of_cell,
             depth,
+            scale,
+            focal: map.plane.focal,
         }
     }
 
@@ -227,8 +234,9 @@ fn patch(
 }
 
 /// The largest step that keeps all limits wherever in the layer it lies. A step between depths `Z` and `Z e^d` is `Z (e^d - 1)`
-/// high, and opens by `e (1 - e^-d) / Z` for an eye that moves sideways by `e` (design: `e |1/Z1 - 1/Z2|`).
-fn highest(limits: &StepLimits, target: &Target, p: &Patch) -> f64 {
+/// high, and opens by `e (1 - e^-d) / Z` for an eye that moves sideways by `e` (design: `e |1/Z1 - 1/Z2|`); as from the reading
+/// distance by `focal^2` times that.
+fn highest(limits: &StepLimits, target: &Target, focal: f64, p: &Patch) -> f64 {
     let depth = target.mesh.faces[p.face as usize].map(|v| target.depth[v as usize]);
     let at = |k: usize, y: f64| depth[k] * y.exp();
     let nearest = (0..3)
@@ -239,7 +247,7 @@ fn highest(limits: &StepLimits, target: &Target, p: &Patch) -> f64 {
         .highest_mm
         .map_or(f64::INFINITY, |h| (h / farthest).ln_1p());
     let by_tolerance = limits.tolerance_mm.map_or(f64::INFINITY, |e| {
-        let opening = UNSEEN_RAD * nearest / e;
+        let opening = UNSEEN_RAD * nearest / e / (focal * focal);
         if opening < 1.0 {
             -(-opening).ln_1p()
         } else {
@@ -295,7 +303,7 @@ fn seams(
     map: &ViewMap,
     patches: &[Patch],
     of_cell: &[Option<u32>],
-    depth: f64,
+    scale: f64,
 ) -> (Vec<Seam>, Vec<Rim>) {
     let (mut seams, mut rims) = (Vec::new(), Vec::new());
     for c in 0..map.cells.len() {
@@ -310,7 +318,7 @@ fn seams(
             let line = [corners[k], corners[(k + 1) % 3]];
             if patches[i as usize].support != patches[j as usize].support {
                 let i_is_near = map.cells[c].support_depth < map.cells[n as usize].support_depth;
-                let length_mm = line[0].distance(line[1]) * depth;
+                let length_mm = line[0].distance(line[1]) * scale;
                 rims.extend([(i, i_is_near), (j, !i_is_near)].map(|(patch, near)| Rim {
                     patch,
                     near,
@@ -318,7 +326,7 @@ fn seams(
                 }));
             } else if i != j {
                 let pair = [i.min(j), i.max(j)];
-                seams.push(seam(target, patches, pair, line, depth));
+                seams.push(seam(target, patches, pair, line, scale));
             }
         }
     }
@@ -326,7 +334,7 @@ fn seams(
     (seams, rims)
 }
 
-fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], depth: f64) -> Seam {
+fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], scale: f64) -> Seam {
     let faces = pair.map(|p| patches[p as usize].face as usize);
     let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
     let gap = |[a, b]: [(Anchor, f64); 2]| {
@@ -341,7 +349,7 @@ fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], de
         patches: pair,
         ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),
         gaps: at.map(gap),
-        length_mm: line[0].distance(line[1]) * depth,
+        length_mm: line[0].distance(line[1]) * scale,
         line,
         crease: a.cross(b).length().atan2(a.dot(b)),
         highest: pair

@@ -33,7 +33,7 @@ pub fn absorb_thin(
         return absorbed;
     }
     let patches = functional.patches();
-    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.depth);
+    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.scale);
     for _ in 0..ROUNDS {
         let pieces = functional.pieces(field);
         let thin = raster.thin(target, functional, &pieces);

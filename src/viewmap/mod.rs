@@ -16,7 +16,7 @@ mod outline;
 mod tidy;
 
 use crate::bvh::{Bvh, Hit};
-use crate::geom::{ImagePlane, barycentric, orient, solid_angle};
+use crate::geom::{ImagePlane, barycentric, orient};
 use crate::mesh::{DisjointSets, Edges, TriMesh, face_components};
 use crate::support::{Datum, Support, SupportKind};
 use crate::view::Marks;
@@ -88,10 +88,9 @@ impl ViewMap {
             / 3.0
     }
 
-    /// Solid angle of a cell in steradians.
+    /// Solid angle of a cell in steradians, as [`ImagePlane::solid_angle`] has it.
     pub fn solid_angle(&self, cell: usize) -> f64 {
-        let [a, b, c] = self.triangle(cell).map(|q| self.plane.direction(q));
-        solid_angle(a, b, c).abs()
+        self.plane.solid_angle(self.triangle(cell)).abs()
     }
 }
 
@@ -319,7 +318,7 @@ pub fn view_map(
         doubtful = label(&mut map, target, supports);
     }
     map.doubtful_sr = doubtful.iter().map(|c| map.solid_angle(*c)).sum();
-    tidy::tidy(&mut map, TIDY_MM / mean(&target.depth));
+    tidy::tidy(&mut map, TIDY_MM / plane.scale(mean(&target.depth)));
     mark_outlines(&mut map, &face_components(&target.mesh));
     Ok(map)
 }

@@ -6,7 +6,6 @@ use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::load_model;
-use pillarforest::geom::ImagePlane;
 use pillarforest::groups::layer_in;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
@@ -104,7 +103,7 @@ fn offsets(scene: &Scene, mesh: &TriMesh) -> Vec<f64> {
     scene.supports.iter().for_each(|s| bare.append(&s.mesh));
     let target = Bvh::new(&view.target());
     let (bare, forest) = (Bvh::new(&bare), Bvh::new(mesh));
-    let plane = ImagePlane::looking_at(view.eye, view.look_at);
+    let plane = view.plane();
     let mut found = Vec::new();
     for i in 0..80 {
         for j in 0..80 {

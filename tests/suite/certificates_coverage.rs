@@ -32,7 +32,7 @@ struct Sight {
 impl Sight {
     fn new(name: &str, eye: DVec3, model: TriMesh, field: &SupportField) -> Self {
         let view = view(name, eye, model, ORANGE);
-        let plane = ImagePlane::looking_at(view.eye, view.look_at);
+        let plane = view.plane();
         let target = Target::new(view.target(), &plane).expect("in front of the eye");
         let map = view_map(plane, &target, field).expect("a map");
         let groups = groups(name, &map, &target, field).expect("groups");

@@ -4,7 +4,9 @@ use crate::shapes::{BLUE, ORANGE, ball, prism, ring};
 use glam::{DQuat, DVec2, DVec3};
 use gltf_json::validation::Validate;
 use pillarforest::formats::read::{read_bodies, read_mesh};
-use pillarforest::formats::{Camera, Metadata, Part, ZipTime, write_3mf, write_glb, write_stl};
+use pillarforest::formats::{
+    Camera, Lens, Metadata, Part, ZipTime, write_3mf, write_glb, write_stl,
+};
 use pillarforest::mesh::Solid;
 use quick_xml::events::{BytesStart, Event};
 use std::io::Read;
@@ -381,13 +383,13 @@ fn glb_cameras_stand_at_the_eyes_and_look_at_their_targets() {
             name: "owl".into(),
             eye: DVec3::new(250.0, 30.0, 48.0),
             look_at: DVec3::new(0.0, -10.0, 40.0),
-            fov: 0.5,
+            lens: Lens::Perspective(0.5),
         },
         Camera {
             name: "from above".into(),
             eye: DVec3::new(0.0, 0.0, 300.0),
             look_at: DVec3::ZERO,
-            fov: 0.4,
+            lens: Lens::Orthographic(40.0),
         },
     ];
     let glb = write_glb(&[], &cameras);
@@ -407,6 +409,9 @@ fn glb_cameras_stand_at_the_eyes_and_look_at_their_targets() {
         "upright"
     );
     assert_eq!(root.cameras[0].perspective.as_ref().unwrap().yfov, 0.5);
+    let parallel = root.cameras[1].orthographic.as_ref().unwrap();
+    assert_eq!([parallel.xmag, parallel.ymag], [0.04; 2]);
+    assert!(root.cameras[1].perspective.is_none() && parallel.znear < 0.3 && parallel.zfar > 0.3);
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod hostile;
 mod lights;
 mod meshes;
 mod numerics;
+mod orthographic;
 mod planner;
 mod planning_pictures;
 mod planning_scene;

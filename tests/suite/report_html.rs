@@ -129,6 +129,7 @@ fn certificate() -> CertificateReport {
                     distances: [200.0, 204.0],
                 },
             }],
+            ..Tolerance::default()
         },
     }
 }

@@ -477,6 +477,7 @@ fn bundled_scenes_resolve_without_a_word() {
         ("fig13-wave", 1),
         ("fig16-strips", 5),
         ("fig17-herd", 1),
+        ("orthographic", 1),
         ("vase", 1),
     ] {
         let scene = bundled(&format!("scenes/paper/{name}.ron"), &models);

@@ -137,6 +137,7 @@ pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
         name: name.into(),
         eye,
         look_at: (lo + hi) / 2.0,
+        orthographic: false,
         models: vec![model],
         colour,
     }

@@ -1,7 +1,7 @@
 //! Sides of a view map at which an eye that moves sees its pieces part, and the worst of them that is more than a speck.
 
 use super::{Cut, parting};
-use crate::geom::parallax;
+use crate::geom::{ImagePlane, parallax};
 use crate::groups::anchor;
 use crate::mesh::DisjointSets;
 use crate::relief::Relief;
@@ -9,7 +9,12 @@ use crate::viewmap::{Target, ViewMap};
 use glam::DVec3;
 
 /// Sides that open by less for each millimetre of movement are left out, 1/mm: they would take an eye hundreds of metres.
-pub const LEAST: f64 = 1e-9;
+const LEAST: f64 = 1e-9;
+
+/// The same of any eye.
+pub fn least(plane: &ImagePlane) -> f64 {
+    LEAST / (plane.focal * plane.focal)
+}
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
@@ -80,11 +85,12 @@ impl Side {
 /// All sides between two cells with reliefs that open at all, in the order of the cells.
 pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<Side> {
     let mut sides = Vec::new();
+    let least = least(&map.plane);
     for c in 0..map.cells.len() {
         for k in 0..3 {
             let next = map.neighbours[c][k].filter(|n| *n as usize > c);
             let side = next.and_then(|n| side(map, target, relief, [c, n as usize], k));
-            sides.extend(side.filter(|s| s.excess(0.0) > LEAST));
+            sides.extend(side.filter(|s| s.excess(0.0) > least));
         }
     }
     sides

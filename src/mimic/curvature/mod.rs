@@ -24,7 +24,6 @@ use super::{
     CurvatureForm, CurvatureOptions, Depths, SolveError, Solved, scales, seen_solid_angles,
     typical_width,
 };
-use crate::geom::solid_angle;
 use crate::groups::Groups;
 use crate::mesh::DisjointSets;
 use crate::viewmap::{Target, ViewMap};
@@ -139,6 +138,7 @@ impl Problem<'_> {
         let meaning = Meaning {
             depths: &depths,
             tangent: &tangent,
+            focal: self.map.plane.focal,
         };
         let (u, solved) = solve_lazily(&mut program, self.conditions, &meaning)?;
         let (s, _) = depths(&u);
@@ -219,8 +219,7 @@ fn visible_vertices(target: &Target, map: &ViewMap) -> Vec<bool> {
     let seen = seen_solid_angles(target, map);
     let mut shares = vec![(0.0, 0.0); target.mesh.vertices.len()];
     for (f, face) in target.mesh.faces.iter().enumerate() {
-        let [a, b, c] = target.mesh.corners(f).map(|p| p - map.plane.eye);
-        let whole = solid_angle(a, b, c);
+        let whole = map.plane.solid_angle_of(target.mesh.corners(f));
         if whole > 0.0 || seen[f] > 0.0 {
             for v in face {
                 shares[*v as usize].0 += seen[f];

@@ -3,8 +3,9 @@
 use super::text::{count, mark, measure, measure_or, percent, place, table_if_any, tiny};
 use crate::certify::conflicts::Trouble;
 use crate::certify::coverage::{Cause, Gap};
-use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Way, WorstCut};
+use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Turn, Way, WorstCut};
 use crate::formats::markup::escaped;
+use crate::geom::READING_MM;
 use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
 use std::fmt::Write as _;
@@ -156,6 +157,11 @@ fn reaching(c: &CertificateReport) -> Vec<Row> {
 }
 
 fn room(c: &CertificateReport) -> Vec<Row> {
+    if let (Some(unseen), Some(one)) =
+        (&c.tolerance.eye_tolerance_deg, &c.tolerance.one_picture_deg)
+    {
+        return turns(c, unseen, one);
+    }
     let (unseen, one) = (&c.tolerance.eye_tolerance_mm, &c.tolerance.one_picture_mm);
     let minutes = |angle: f64| format!("{:.0} arc-minutes", angle.to_degrees() * 60.0);
     let way = |what, unseen, one, how: &str| {
@@ -201,6 +207,38 @@ fn room(c: &CertificateReport) -> Vec<Row> {
                 "From there on two eyes {EYES_MM:.0}{}mm apart see one object, if the forest is made for that distance.",
                 '\u{202F}'
             ),
+        ),
+    ]
+}
+
+/// The same for an eye at infinity.
+fn turns(c: &CertificateReport, unseen: &Turn, one: &Turn) -> Vec<Row> {
+    let way = |what, unseen, one| {
+        Row(
+            what,
+            format!(
+                "{} / {}",
+                measure_or(unseen, 2, "°", ALWAYS),
+                measure_or(one, 2, "°", ALWAYS)
+            ),
+            None,
+            format!(
+                "How far the direction may turn until the worst cut opens by {:.0} (nobody sees it) / {:.0} (still one picture) \
+                 arc-minutes, as seen from {READING_MM:.0}{}mm.",
+                UNSEEN_RAD.to_degrees() * 60.0,
+                ONE_PICTURE_RAD.to_degrees() * 60.0,
+                '\u{202F}'
+            ),
+        )
+    };
+    vec![
+        way("Sideways", unseen.side, one.side),
+        way("Up and down", unseen.up, one.up),
+        Row(
+            "One picture from",
+            measure_or(c.tolerance.one_picture_from_mm, 0, "mm", "anywhere"),
+            None,
+            "From there on an eye that is not at infinity sees one picture.".to_owned(),
         ),
     ]
 }

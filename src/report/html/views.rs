@@ -19,9 +19,9 @@ pub fn view(number: usize, found: &ViewReport, shown: Option<&ViewExhibit>) -> S
     });
     let files: Vec<String> = found.models.iter().map(|m| escaped(&m.file)).collect();
     let mut html = format!(
-        "<section id=\"view-{number}\">\n<h2>{swatch}{name}</h2>\n<p class=\"lead\">{} from an eye at {}, looking at {}.</p>\n",
+        "<section id=\"view-{number}\">\n<h2>{swatch}{name}</h2>\n<p class=\"lead\">{} {}, looking at {}.</p>\n",
         files.join(", "),
-        place(found.eye),
+        standpoint(found),
         place(found.look_at)
     );
     if let Some(pictures) = shown.and_then(|s| s.pictures) {
@@ -39,6 +39,17 @@ pub fn view(number: usize, found: &ViewReport, shown: Option<&ViewExhibit>) -> S
     html.push_str(&inner(found));
     html.push_str("</section>\n");
     html
+}
+
+/// From where a view is seen.
+fn standpoint(found: &ViewReport) -> String {
+    match found.from {
+        Some(from) => {
+            let [x, y, z] = from.map(|c| measure(c, 2, ""));
+            format!("by parallel rays from the direction ({x}, {y}, {z})")
+        }
+        None => format!("from an eye at {}", place(found.eye)),
+    }
 }
 
 /// The slider, with the errors beside it. Without scripts the slider's two pictures stand side by side.

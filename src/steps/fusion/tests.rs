@@ -162,6 +162,8 @@ impl Sheet {
             rims: Vec::new(),
             width: (BACK / (BACK - THICK)).ln(),
             depth: BACK,
+            scale: BACK,
+            focal: 1.0,
         }
     }
 }
