@@ -1,6 +1,6 @@
 //! Solving with curved conditions: rows are added only where a solution needs them.
 
-use super::conditions::Condition;
+use super::conditions::{Condition, Conditions};
 use super::program::{Program, Row};
 use super::solve::{SolveError, Solved, solve, solve_again};
 
@@ -11,6 +11,8 @@ const BROKEN: f64 = 1e-9;
 pub const MARGIN: f64 = 1e-6;
 /// Rounds after which what is left is clamped: four were the most so far.
 const ROUNDS: u32 = 12;
+/// The same of a whole mesh, whose orders are all added so.
+const ROUNDS_OF_WHOLE: u32 = 40;
 
 /// Relative depths of all vertices and scales of all groups.
 pub type DepthsAndScales = (Vec<f64>, Vec<f64>);
@@ -28,16 +30,27 @@ pub struct Meaning<'a> {
 /// As [`solve`].
 pub fn solve_lazily(
     program: &mut Program,
-    conditions: &[Condition],
+    conditions: &Conditions,
     meaning: &Meaning,
 ) -> Result<(Vec<f64>, Solved), SolveError> {
     let mut solution = solve(program)?;
     let first = solution.solved.optimality.objective;
     let (mut rounds, before) = (0, program.rows.len());
-    while rounds < ROUNDS {
+    let most = match conditions.urgent {
+        0 => ROUNDS,
+        _ => ROUNDS_OF_WHOLE,
+    };
+    while rounds < most {
         let (s, mu) = (meaning.depths)(&solution.u);
-        let broken = conditions.iter().filter(|c| c.excess(&s, &mu) > BROKEN);
-        let rows: Vec<Row> = broken.filter_map(|c| (meaning.tangent)(c, &s)).collect();
+        let tangents = |list: &[Condition]| -> Vec<Row> {
+            let broken = list.iter().filter(|c| c.is_broken(&s, &mu, BROKEN));
+            broken.filter_map(|c| (meaning.tangent)(c, &s)).collect()
+        };
+        let (urgent, others) = conditions.all.split_at(conditions.urgent);
+        let mut rows = tangents(urgent);
+        if rows.is_empty() {
+            rows = tangents(others);
+        }
         if rows.is_empty() {
             break;
         }
@@ -55,7 +68,8 @@ pub fn solve_lazily(
         }
     }
     let (s, mu) = (meaning.depths)(&solution.u);
-    let broken = conditions.iter().filter(|c| c.excess(&s, &mu) > BROKEN);
+    let all = conditions.all.iter();
+    let broken = all.filter(|c| c.is_broken(&s, &mu, BROKEN));
     let solved = Solved {
         broken: broken.count(),
         rounds: solution.solved.rounds + rounds,

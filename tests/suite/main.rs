@@ -34,3 +34,4 @@ mod steps;
 mod surface;
 mod tolerance;
 mod visibility;
+mod whole;

@@ -56,6 +56,7 @@ fn certificate() -> CertificateReport {
         bound_violation_mm: 1.25e-9,
         clamp_mm: 2.5e-8,
         order_inversions: 41,
+        crossings: None,
         proof: Some(Proof {
             duality_gap_rel: 5.37e-8,
             primal_residual: 6.5e-12,
