@@ -60,7 +60,7 @@ impl Anchor {
     }
 }
 
-/// `lower <= s / mu_g <= upper` at one point.
+/// `lower <= s / mu_g <= upper` at one point; `lower` may be 0: no near limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
     pub group: u32,
@@ -94,6 +94,16 @@ pub struct Groups {
     pub needed: usize,
     /// The layer of every support from this eye.
     pub slabs: Vec<Option<Slab>>,
+    /// Whether the mesh is deformed as a whole (see `whole`): then hidden faces take part, and all sheets keep their order.
+    pub whole: bool,
+}
+
+/// A vertex itself as an anchor.
+pub fn vertex_anchor(vertex: u32) -> Anchor {
+    Anchor {
+        vertices: [vertex; 3],
+        weights: [1.0, 0.0, 0.0],
+    }
 }
 
 /// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
@@ -157,6 +167,7 @@ pub fn groups(
         bounds,
         needed,
         slabs,
+        whole: false,
     })
 }
 
@@ -204,6 +215,7 @@ pub fn without(
         bounds: Vec::new(),
         needed: 0,
         slabs: groups.slabs.clone(),
+        whole: groups.whole,
     };
     with_bounds(&left, map, target, field)
 }

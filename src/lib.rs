@@ -20,10 +20,11 @@
 //! | groups of all views | [`contest::settle`] | [`contest::Settlement`]: contested surface, and which view loses it |
 //! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
 //! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
+//! | groups of a mesh that stays whole | [`whole::whole`] | the same as one group, hidden parts held too; afterwards [`whole::moved`], the closed mesh, and its [`whole::Crossings`] |
 //! | depths | [`surface::surface`] | [`surface::Surface`]: the optimised surface with the input's attributes, for other programs |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | depths and relief | [`diagram::section::section`] | [`diagram::section::Section`]: groups cut open through the eye, their bounds, scales and pieces |
-//! | reliefs of all views | [`carve::carve`] | [`carve::Forest`]: checked solids |
+//! | reliefs of all views | [`carve::carve`], [`carve::joined`] for whole meshes | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
@@ -75,6 +76,8 @@ pub mod laplacian;
 pub mod mimic;
 
 pub mod steps;
+
+pub mod whole;
 
 pub mod surface;
 

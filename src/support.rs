@@ -255,6 +255,20 @@ impl Slab {
         }
     }
 
+    /// Factor from the farthest depth that the layer allows on a ray to `before` millimetres before the datum.
+    pub fn before_datum(&self, before: f64) -> f64 {
+        let from = match self.layer.datum {
+            Datum::Plane => self.distance,
+            Datum::Surface => self.measure,
+        };
+        (from - before) / (from + self.layer.back)
+    }
+
+    /// Material that must be left of the support, millimetres.
+    pub fn core(&self) -> f64 {
+        self.layer.core
+    }
+
     /// Whether outlines of the model are to lie on the datum.
     pub fn draws(&self) -> bool {
         self.layer.hull

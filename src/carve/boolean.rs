@@ -4,7 +4,7 @@ use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 use manifold_rust::linalg::{Vec2, Vec3};
 use manifold_rust::manifold::Manifold;
-use manifold_rust::types::{Error, MeshGL64};
+use manifold_rust::types::{BooleanEngine, Error, MeshGL64};
 use rayon::prelude::*;
 
 /// A solid the library has accepted. Operations keep f64 coordinates.
@@ -78,6 +78,16 @@ impl Boolean {
 
     pub fn minus(&self, other: &Self) -> Result<Self, BooleanError> {
         Self::checked(self.0.difference(&other.0))
+    }
+
+    /// As [`Self::plus`], of operands that may cross themselves.
+    pub fn plus_any(&self, other: &Self) -> Result<Self, BooleanError> {
+        Self::checked(self.0.union_with_engine(&other.0, BooleanEngine::Auto))
+    }
+
+    /// As [`Self::minus`], of operands that may cross themselves.
+    pub fn minus_any(&self, other: &Self) -> Result<Self, BooleanError> {
+        Self::checked(self.0.difference_with_engine(&other.0, BooleanEngine::Auto))
     }
 
     /// What both have in common.

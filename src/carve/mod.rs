@@ -10,7 +10,10 @@
 pub(crate) mod boolean;
 mod brace;
 pub(crate) mod hollow;
+mod joined;
 mod piece;
+
+pub use joined::{Whole, joined};
 
 use crate::groups::Groups;
 use crate::mesh::{Defect, Solid, mend, without_cavities};
@@ -157,8 +160,9 @@ pub fn carve(field: &SupportField, views: &[ViewRelief]) -> Result<Forest, Carve
         .into_par_iter()
         .map(|s| carve_support(field, s, views, 0))
         .collect::<Result<_, _>>()?;
+    let names: Vec<&str> = views.iter().map(|v| v.name).collect();
     for _ in 1..UNIONS {
-        let error = match unite(&carved, views) {
+        let error = match unite(&carved, &names) {
             Ok(forest) => return Ok(forest),
             Err(error) => error,
         };
@@ -170,11 +174,11 @@ pub fn carve(field: &SupportField, views: &[ViewRelief]) -> Result<Forest, Carve
         };
         carved[s] = carve_support(field, s, views, carved[s].widths + 1)?;
     }
-    unite(&carved, views)
+    unite(&carved, &names)
 }
 
-/// The forest of carved supports.
-fn unite(carved: &[Carved], views: &[ViewRelief]) -> Result<Forest, CarveError> {
+/// The forest of carved supports; `views` are the views' names.
+fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
     let of_view = |v: usize| {
@@ -191,7 +195,7 @@ fn unite(carved: &[Carved], views: &[ViewRelief]) -> Result<Forest, CarveError> 
                 || {
                     (0..views.len())
                         .into_par_iter()
-                        .map(|v| united(of_view(v), views[v].name))
+                        .map(|v| united(of_view(v), views[v]))
                         .collect::<Result<Vec<_>, _>>()
                 },
             )

@@ -4,10 +4,11 @@
 //! affine in the image (see `groups`), so that cell corners decide for the whole cell; sides' ends decide for sides where
 //! sheets meet. Neither the program's rows nor its solution are used.
 
-use crate::groups::{Groups, anchor, layer_in, surface_in};
-use crate::mimic::TOGETHER_MM;
+use crate::groups::{Bound, Groups, anchor, layer_in, surface_in};
+use crate::mimic::{Depths, TOGETHER_MM};
 use crate::relief::Relief;
 use crate::viewmap::{SupportField, Target, ViewMap};
+use glam::DVec3;
 
 /// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
 const EQUAL_MM: f64 = 1e-6;
@@ -55,6 +56,17 @@ pub fn reach_mm(
         }
     }
     reach
+}
+
+/// How far a mesh that stays whole leaves its bounds anywhere, hidden vertices included, millimetres along the ray.
+pub fn whole_violation_mm(target: &Target, eye: DVec3, groups: &Groups, depths: &Depths) -> f64 {
+    let outside = |bound: &Bound| {
+        let s = bound.anchor.relative_depth(&depths.s) / depths.mu[bound.group as usize];
+        let away = bound.anchor.terms();
+        let away = away.map(|(v, _)| target.mesh.vertices[v].distance(eye));
+        (bound.lower - s).max(s - bound.upper) * away.fold(0.0, f64::max)
+    };
+    groups.bounds.iter().map(outside).fold(0.0, f64::max)
 }
 
 /// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same

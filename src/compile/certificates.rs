@@ -6,7 +6,7 @@ use super::print::print_checks;
 use super::sight::Sight;
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::{Finished, sighted};
-use crate::certify::layer::{bound_violation_mm, order_inversions, reach_mm};
+use crate::certify::layer::{bound_violation_mm, order_inversions, reach_mm, whole_violation_mm};
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Claim, Contest, contested, settle};
 use crate::diag::Diagnostic;
@@ -34,6 +34,14 @@ pub fn settled(
 ) -> Result<Settled, Vec<Diagnostic>> {
     let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
     let settlement = settle(&claims, field, scene.contested)?;
+    let contested_whole = sights.iter().zip(&settlement.lost);
+    let errors: Vec<Diagnostic> = contested_whole
+        .filter(|(sight, lost)| sight.groups.whole && !lost.is_empty())
+        .map(|(sight, _)| indivisible(&sight.view.name))
+        .collect();
+    if !errors.is_empty() {
+        return Err(errors);
+    }
     let unchanged = settlement.lost.iter().all(Vec::is_empty);
     let lost = sights.iter_mut().zip(settlement.lost);
     let errors: Vec<Diagnostic> = lost
@@ -52,6 +60,13 @@ pub fn settled(
         contests: settlement.contests,
         left_arcmin2,
     })
+}
+
+fn indivisible(view: &str) -> Diagnostic {
+    Diagnostic::error(format!(
+        "view \"{view}\" would have to give up surface to another view, but its meshes stay whole"
+    ))
+    .help("move supports or models of different views apart, or `relief: HeightField`")
 }
 
 /// What is promised of a finished forest.
@@ -99,9 +114,17 @@ fn certificate(
     let certificate = CertificateReport {
         relief_front_mm: front,
         relief_back_mm: back,
-        bound_violation_mm: bound_violation_mm(&sight.map, built.field, &sight.groups, relief),
+        bound_violation_mm: if sight.groups.whole {
+            whole_violation_mm(&sight.target, sight.view.eye, &sight.groups, &shape.depths)
+        } else {
+            bound_violation_mm(&sight.map, built.field, &sight.groups, relief)
+        },
         clamp_mm: relief.clamp_mm,
-        order_inversions: turned + shape.depths.solved.broken,
+        order_inversions: match shape.crossings.filter(|_| sight.groups.whole) {
+            Some(crossings) => crossings.order_inversions,
+            None => turned + shape.depths.solved.broken,
+        },
+        crossings: shape.crossings,
         proof: proof(&shape.depths.solved),
         not_an_optimum: shape.depths.solved.not_an_optimum,
         coverage: coverage.share(),

@@ -16,7 +16,7 @@ mod summary;
 mod verdict;
 
 use crate::bvh::Bvh;
-use crate::carve::{Forest, ViewRelief, carve};
+use crate::carve::{Forest, ViewRelief, Whole, carve, joined};
 use crate::diag::Diagnostic;
 use crate::planner::{Brief, Watch};
 use crate::scene::{Scene, laid_out};
@@ -132,7 +132,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     }
     progress("view maps", 0.02);
     let field = SupportField::new(&scene.supports);
-    let mut sights = all(scene.views.par_iter().map(|v| see(v, &field)))?;
+    let mut sights = all(scene.views.par_iter().map(|v| see(v, &field, scene.whole)))?;
     let settled = settled(scene, &mut sights, &field)?;
     // A build tells of what is missing as failures.
     let told = sights.par_iter().filter(|_| goal != Goal::All);
@@ -153,12 +153,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
         .chain(unsettled(&sights, &shapes))
         .collect();
     progress("solids", 0.45);
-    let reliefs: Vec<ViewRelief> = sights
-        .iter()
-        .zip(&shapes)
-        .map(|(s, r)| s.relief(&r.relief))
-        .collect();
-    let forest = carve(&field, &reliefs).map_err(|e| vec![Diagnostic::error(e.to_string())])?;
+    let forest = solids(&field, &sights, &shapes)?;
     progress("pictures", 0.7);
     let built = Built {
         bvh: Bvh::new(forest.whole.mesh()),
@@ -221,6 +216,24 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
         failures,
         warnings,
     })
+}
+
+/// Reliefs or whole meshes as solids.
+fn solids(
+    field: &SupportField,
+    sights: &[Sight],
+    shapes: &[Shape],
+) -> Result<Forest, Vec<Diagnostic>> {
+    let both = || sights.iter().zip(shapes);
+    let wholes: Option<Vec<Whole>> = both().map(|(s, r)| s.joined(r)).collect();
+    let forest = match wholes {
+        Some(wholes) => joined(field, &wholes),
+        None => {
+            let reliefs: Vec<ViewRelief> = both().map(|(s, r)| s.relief(&r.relief)).collect();
+            carve(field, &reliefs)
+        }
+    };
+    forest.map_err(|e| vec![Diagnostic::error(e.to_string())])
 }
 
 /// All results, or all errors of all views.

@@ -1,12 +1,13 @@
 //! One view on its way through the stages that concern it alone.
 
-use crate::carve::ViewRelief;
+use crate::carve::{ViewRelief, Whole};
 use crate::certify::Seen;
 use crate::certify::coverage::{Coverage, coverage};
 use crate::contest::{Claim, Loss};
 use crate::diag::Diagnostic;
 use crate::diagram::section::{Section, section};
 use crate::groups::{Groups, groups, without};
+use crate::mesh::TriMesh;
 use crate::mimic::{Depths, Energy, RowKind, SolveError, depths};
 use crate::relief::{Relief, relief};
 use crate::scene::Scene;
@@ -14,6 +15,7 @@ use crate::steps::{StepLine, StepSummary, torn};
 use crate::surface::{Surface, surface, torn_surface};
 use crate::view::View;
 use crate::viewmap::{SupportField, Target, ViewMap, view_map};
+use crate::whole::{Bounded, Crossings, crossings, moved, whole};
 
 /// One view before optimisation.
 pub struct Sight<'a> {
@@ -31,6 +33,10 @@ pub struct Shape {
     pub relief: Relief,
     /// Where the surface was torn, if it might be.
     pub steps: Option<(Vec<StepLine>, StepSummary)>,
+    /// The mesh as it is built, if it stays whole.
+    pub whole: Option<TriMesh>,
+    /// What crosses in the surface before it is cut, if the whole mesh was optimised.
+    pub crossings: Option<Crossings>,
     /// The surface before it was cut, if it is wanted.
     pub surface: Option<Surface>,
     /// The groups cut open, if that is wanted.
@@ -51,11 +57,15 @@ pub fn unsettled(sights: &[Sight], shapes: &[Shape]) -> Vec<Diagnostic> {
     views.filter_map(warning).collect()
 }
 
-/// Projects, maps and groups one view.
+/// Projects, maps and groups one view; of meshes that stay whole so much is `bounded`.
 ///
 /// # Errors
 /// If the models do not lie before the eye, nothing of them is seen, or no support carries them.
-pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Diagnostic>> {
+pub fn see<'a>(
+    view: &'a View,
+    field: &SupportField,
+    bounded: Option<Bounded>,
+) -> Result<Sight<'a>, Vec<Diagnostic>> {
     let failed = |text: String| vec![Diagnostic::error(format!("view \"{}\": {text}", view.name))];
     let plane = view.plane();
     let target = Target::new(view.target(), &plane)
@@ -68,6 +78,10 @@ pub fn see<'a>(view: &'a View, field: &SupportField) -> Result<Sight<'a>, Vec<Di
             "no pillar stands behind or in its models, so nothing of them can appear".into(),
         ));
     }
+    let groups = match bounded {
+        Some(bounded) => whole(&view.name, &map, &target, field, groups, bounded)?,
+        None => groups,
+    };
     Ok(Sight {
         view,
         target,
@@ -150,12 +164,18 @@ impl Sight<'_> {
                 relief,
                 depths: torn.depths,
                 steps: Some((torn.lines, torn.summary)),
+                whole: None,
+                crossings: None,
             });
         }
         let depths = depths(scene.energy, target, map, groups).map_err(explained)?;
         let relief = relief(map, target, field, groups, &depths);
         let seen = (map, target, field);
+        let all_of_it = groups.whole || matches!(scene.energy, Energy::Curvature(_));
+        let mesh = all_of_it.then(|| moved(target, self.view.eye, &depths));
         Ok(Shape {
+            crossings: mesh.as_ref().map(|m| crossings(target, m, &depths)),
+            whole: mesh.filter(|_| groups.whole),
             surface: wanted.then(|| surface(self.view, groups, &depths)),
             section: opened.then(|| section(seen, groups, &depths, &relief, whole(false))),
             relief,
@@ -189,6 +209,16 @@ impl Sight<'_> {
             bound.lower, bound.upper
         ))
         .help(format!("give {support} a thicker layer (`front`, `back`)"))
+    }
+
+    /// What the solids need of a view whose mesh stays whole.
+    pub fn joined<'a>(&'a self, shape: &'a Shape) -> Option<Whole<'a>> {
+        let mesh = shape.whole.as_ref()?;
+        Some(Whole {
+            name: &self.view.name,
+            support: self.groups.groups[0].support,
+            mesh,
+        })
     }
 
     /// What the solids need of this view.

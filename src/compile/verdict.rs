@@ -7,11 +7,11 @@ use crate::scene::Scene;
 
 /// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
 pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    let ordered = scene.energy.ordering();
+    let (ordered, whole) = (scene.energy.ordering(), scene.whole.is_some());
     let mut failures: Vec<Diagnostic> = unseen.into_iter().map(Diagnostic::into_error).collect();
     for view in &report.views {
         if let Some(certificate) = &view.certificate {
-            of_view(&view.name, certificate, ordered, &mut failures);
+            of_view(&view.name, certificate, [ordered, whole], &mut failures);
         }
     }
     if let Some(solid) = report.solid.as_ref().filter(|s| s.parts > 1) {
@@ -46,7 +46,12 @@ fn print_failure(check: &PrintCheck) -> Diagnostic {
     }
 }
 
-fn of_view(name: &str, found: &CertificateReport, ordered: bool, failures: &mut Vec<Diagnostic>) {
+fn of_view(
+    name: &str,
+    found: &CertificateReport,
+    [ordered, whole]: [bool; 2],
+    failures: &mut Vec<Diagnostic>,
+) {
     let mut fail = |holds: bool, text: String, help: &str| {
         if !holds {
             failures.push(Diagnostic::error(format!("view \"{name}\": {text}")).help(help));
@@ -65,6 +70,12 @@ fn of_view(name: &str, found: &CertificateReport, ordered: bool, failures: &mut 
             found.order_inversions
         ),
         "thicker layers (`front`, `back`) leave the solver more room; `ordering: false` in `energy` allows it",
+    );
+    let crossing = found.crossings.map_or(0, |c| c.self_intersections);
+    fail(
+        !(whole && ordered) || crossing == 0,
+        format!("its mesh crosses itself at {crossing} pairs of faces"),
+        "`check` tells whether the models cross themselves already; finer or rounder meshes leave more room at their silhouettes",
     );
     let gap = found.proof.map_or(0.0, |p| p.worst());
     fail(

@@ -24,7 +24,7 @@ pub use mend::mend;
 pub use shells::without_cavities;
 pub use simplify::{Simplified, simplified};
 pub use solid::Solid;
-pub use topology::{DisjointSets, Edges, face_components, face_neighbours, vertex_parts};
+pub use topology::{DisjointSets, Edges, HalfEdge, face_components, face_neighbours, vertex_parts};
 pub use weld::{snap_to_f32, weld};
 
 use glam::{DMat4, DVec3};

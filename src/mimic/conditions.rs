@@ -17,6 +17,9 @@ use super::ordering::{Order, Orders};
 use super::program::RowKind;
 use crate::groups::{Anchor, Groups};
 
+/// Orders of sheets that hardly part in the model hold to this share of their limit: less than the gap they keep in the result.
+const ORDER_SHARE: f64 = 0.01;
+
 /// A point of the surface and the group whose scale applies to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side {
@@ -40,6 +43,15 @@ impl Condition {
         self.plus.map_or(0.0, log) - self.minus.map_or(0.0, log) - self.limit
     }
 
+    /// Whether depths break the condition by more than `tolerance`, or of an order by more than a share of what it allows.
+    pub fn is_broken(&self, s: &[f64], mu: &[f64], tolerance: f64) -> bool {
+        let tolerance = match self.kind {
+            RowKind::Order(_) => tolerance.min(ORDER_SHARE * self.limit),
+            _ => tolerance,
+        };
+        self.excess(s, mu) > tolerance
+    }
+
     /// The same condition, harder by `margin` (log depth), but never by more than half of what an order allows: sheets that
     /// meet have no room for it.
     pub fn tightened(self, margin: f64) -> Self {
@@ -60,19 +72,40 @@ impl Condition {
     }
 }
 
-/// All conditions, and how many of them come first because they are worth a row from the start: bounds that do not follow
-/// from others, and the nearest orders.
-pub fn all(groups: &Groups, orders: &Orders) -> (Vec<Condition>, usize) {
-    let bounds: Vec<Condition> = bounds(groups).collect();
-    let conditions: Vec<Condition> = self::orders(&orders.all).collect();
-    let (needed, follow) = bounds.split_at(2 * groups.needed);
-    let (nearest, others) = conditions.split_at(orders.nearest);
-    let first = [needed, nearest].concat();
-    let rows = first.len();
-    ([&first, follow, others].concat(), rows)
+/// All conditions, and how many of them come first.
+#[derive(Clone, Debug)]
+pub struct Conditions {
+    pub all: Vec<Condition>,
+    /// So many are worth a row from the start: bounds that do not follow from others, and the nearest orders; of a whole mesh, in
+    /// which few orders bind and rows between its front and its back are dear, bounds alone.
+    pub rows: usize,
+    /// So many are looked at before the rest is, while any of them is broken: those of `rows`, and the nearest orders.
+    pub urgent: usize,
 }
 
-/// The conditions of all bounds: far and near in turn.
+/// See [`Conditions`].
+pub fn all(groups: &Groups, orders: &Orders) -> Conditions {
+    let bounds = bounds(groups);
+    let conditions: Vec<Condition> = self::orders(&orders.all).collect();
+    let is_first = |c: &Condition| match c.kind {
+        RowKind::Near(b) | RowKind::Far(b) => (b as usize) < groups.needed,
+        RowKind::Order(_) | RowKind::Step(_) => false,
+    };
+    let (needed, follow): (Vec<Condition>, Vec<Condition>) = bounds.partition(is_first);
+    let (nearest, others) = conditions.split_at(orders.nearest);
+    let first = [&needed, nearest].concat();
+    let (rows, urgent) = match groups.whole {
+        true => (needed.len(), first.len()),
+        false => (first.len(), 0),
+    };
+    Conditions {
+        all: [&first, &follow, others].concat(),
+        rows,
+        urgent,
+    }
+}
+
+/// The conditions of all bounds: far and near in turn. Those without a near limit have only a far one.
 fn bounds(groups: &Groups) -> impl Iterator<Item = Condition> {
     groups.bounds.iter().enumerate().flat_map(|(i, bound)| {
         let side = Some(Side {
@@ -91,7 +124,9 @@ fn bounds(groups: &Groups) -> impl Iterator<Item = Condition> {
             minus: side,
             limit: -bound.lower.ln(),
         };
-        [far, near]
+        [Some(far), (bound.lower > 0.0).then_some(near)]
+            .into_iter()
+            .flatten()
     })
 }
 

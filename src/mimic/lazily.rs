@@ -1,6 +1,6 @@
 //! Solving with curved conditions: rows are added only where a solution needs them.
 
-use super::conditions::Condition;
+use super::conditions::{Condition, Conditions};
 use super::program::{Program, Row};
 use super::solve::{SolveError, Solved, solve, solve_again};
 
@@ -12,6 +12,8 @@ const BROKEN: f64 = 1e-9;
 pub const MARGIN: f64 = 1e-6;
 /// Rounds after which what is left is clamped: four were the most so far.
 const ROUNDS: u32 = 12;
+/// The same of a whole mesh, whose orders are all added so.
+const ROUNDS_OF_WHOLE: u32 = 40;
 
 /// Relative depths of all vertices and scales of all groups.
 pub type DepthsAndScales = (Vec<f64>, Vec<f64>);
@@ -27,7 +29,7 @@ pub struct Meaning<'a> {
 
 impl Meaning<'_> {
     fn breaks(&self, c: &Condition, s: &[f64], mu: &[f64]) -> bool {
-        c.excess(s, mu) > BROKEN / self.focal
+        c.is_broken(s, mu, BROKEN / self.focal)
     }
 }
 
@@ -37,16 +39,27 @@ impl Meaning<'_> {
 /// As [`solve`].
 pub fn solve_lazily(
     program: &mut Program,
-    conditions: &[Condition],
+    conditions: &Conditions,
     meaning: &Meaning,
 ) -> Result<(Vec<f64>, Solved), SolveError> {
     let mut solution = solve(program)?;
     let first = solution.solved.optimality.objective;
     let (mut rounds, before) = (0, program.rows.len());
-    while rounds < ROUNDS {
+    let most = match conditions.urgent {
+        0 => ROUNDS,
+        _ => ROUNDS_OF_WHOLE,
+    };
+    while rounds < most {
         let (s, mu) = (meaning.depths)(&solution.u);
-        let broken = conditions.iter().filter(|c| meaning.breaks(c, &s, &mu));
-        let rows: Vec<Row> = broken.filter_map(|c| (meaning.tangent)(c, &s)).collect();
+        let tangents = |list: &[Condition]| -> Vec<Row> {
+            let broken = list.iter().filter(|c| meaning.breaks(c, &s, &mu));
+            broken.filter_map(|c| (meaning.tangent)(c, &s)).collect()
+        };
+        let (urgent, others) = conditions.all.split_at(conditions.urgent);
+        let mut rows = tangents(urgent);
+        if rows.is_empty() {
+            rows = tangents(others);
+        }
         if rows.is_empty() {
             break;
         }
@@ -64,7 +77,8 @@ pub fn solve_lazily(
         }
     }
     let (s, mu) = (meaning.depths)(&solution.u);
-    let broken = conditions.iter().filter(|c| meaning.breaks(c, &s, &mu));
+    let all = conditions.all.iter();
+    let broken = all.filter(|c| meaning.breaks(c, &s, &mu));
     let solved = Solved {
         broken: broken.count(),
         rounds: solution.solved.rounds + rounds,

@@ -19,6 +19,7 @@ mod lazily;
 mod normal;
 mod ordering;
 mod program;
+mod sheets;
 mod solve;
 
 pub use certificate::{Optimality, optimality};
@@ -26,6 +27,7 @@ pub use conditions::Condition;
 pub use curvature::{Ending, Iterated, Round};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
+pub use sheets::sheet_orders;
 pub use solve::{Solution, SolveError, Solved, solve};
 
 use crate::groups::Groups;
@@ -130,6 +132,10 @@ pub struct Depths {
     pub iterated: Option<Iterated>,
 }
 
+/// How far apart sheets of a whole mesh are to stay, millimetres: a thousand times what f32 resolves at 100 mm, and far below what
+/// is printed.
+const SHEETS_APART_MM: f64 = 0.01;
+
 /// Finds the depths that minimise `energy` within the groups' bounds.
 ///
 /// # Errors
@@ -140,24 +146,37 @@ pub fn depths(
     map: &ViewMap,
     groups: &Groups,
 ) -> Result<Depths, SolveError> {
-    let orders = if energy.ordering() {
-        orders(target, map, groups)
-    } else {
-        Orders::default()
+    let orders = match (energy.ordering(), groups.whole) {
+        (true, true) => sheet_orders(target, SHEETS_APART_MM),
+        (true, false) => orders(target, map, groups),
+        (false, _) => Orders::default(),
     };
-    let (conditions, rows) = conditions::all(groups, &orders);
-    match energy {
-        Energy::Normal(options) => {
-            normal::depths(options, target, map, groups, &conditions, rows, None)
-        }
-        Energy::Curvature(options) => {
-            curvature::depths(options, target, map, groups, &conditions, rows)
-        }
+    let conditions = conditions::all(groups, &orders);
+    let found = match energy {
+        Energy::Normal(options) => normal::depths(options, target, map, groups, &conditions, None),
+        Energy::Curvature(options) => curvature::depths(options, target, map, groups, &conditions),
         Energy::Linear => {
             let shape = vec![1.0; target.mesh.vertices.len()];
             compress::compressed(&shape, target, groups, compress::LINEAR)
         }
         Energy::Gradient(options) => gradient::depths(options, target, map, groups),
+    }?;
+    Ok(if groups.whole {
+        found.scaled_back()
+    } else {
+        found
+    })
+}
+
+impl Depths {
+    /// The same with the scale of the only group applied: a whole mesh has no others.
+    fn scaled_back(self) -> Self {
+        let mu = self.mu.first().copied().unwrap_or(1.0);
+        Self {
+            s: self.s.iter().map(|s| s / mu).collect(),
+            mu: vec![1.0; self.mu.len()],
+            ..self
+        }
     }
 }
 
@@ -204,16 +223,8 @@ pub fn opened_depths(
         all: orders.to_vec(),
         nearest: orders.len(),
     };
-    let (conditions, rows) = conditions::all(groups, &orders);
-    normal::depths(
-        options,
-        target,
-        map,
-        groups,
-        &conditions,
-        rows,
-        Some(opening),
-    )
+    let conditions = conditions::all(groups, &orders);
+    normal::depths(options, target, map, groups, &conditions, Some(opening))
 }
 
 /// The solid angle seen of every face, steradians.
@@ -227,20 +238,22 @@ fn seen_solid_angles(target: &Target, map: &ViewMap) -> Vec<f64> {
     seen
 }
 
+/// Of a whole mesh that only its outline holds, whose bounds are a tenth of a millimetre wide, the unit is a few millimetres all the
+/// same.
+const LEAST_UNIT: f64 = 0.01;
+
 /// The median width of the bounds in log depth: the unit of all unknowns, so that the solver's tolerances mean the same in
 /// every scene.
 fn typical_width(groups: &Groups) -> f64 {
-    let mut widths: Vec<f64> = groups
-        .bounds
-        .iter()
-        .map(|b| (b.upper / b.lower).ln())
-        .collect();
+    let widths = groups.bounds.iter().map(|b| (b.upper / b.lower).ln());
+    let mut widths: Vec<f64> = widths.filter(|w| w.is_finite()).collect();
     widths.sort_by(f64::total_cmp);
+    let least = if groups.whole { LEAST_UNIT } else { 0.0 };
     widths
         .get(widths.len() / 2)
         .copied()
         .filter(|w| *w > 0.0)
-        .unwrap_or(1.0)
+        .map_or(1.0, |w| w.max(least))
 }
 
 /// The smallest scale that keeps a group within its upper bounds (the paper's choice among equal optima: as close to the

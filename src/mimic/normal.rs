@@ -1,11 +1,11 @@
-//! The normal energy in log depth, on the visible sub-mesh.
+//! The normal energy in log depth, on the visible sub-mesh, or on all of a mesh that is deformed as a whole.
 //!
 //! Scaling a face's vertices along their rays by `s = e^x` turns its normal by `theta` with `tan theta = h |grad x|` to first
 //! order, `h` the distance of the face's plane from the eye: the plane `q.p = 1` has `q.v_i = 1/s_i`, the tangential part of
 //! `q` is the surface gradient of `1/s`, its normal part `1/(h s)`. So `E(x) = sum of a_f h_f^2 |grad_f x|^2` measures what the
 //! paper's Eq 2 asks for, as one weighted cotangent matrix. Bounds are linear in `x - m`, groups additive.
 
-use super::conditions::{Condition, Side, log_tangent};
+use super::conditions::{Condition, Conditions, Side, log_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::{
@@ -26,33 +26,35 @@ const REGULARISER: f64 = 1e-8;
 /// faces grow until the matrix loses digits.
 const LEAST_TURN: f64 = 1e-3;
 
+/// Weight `w` of hidden faces, where they take part, as of the paper's Fig 9: enough to keep their shape where nothing holds them.
+const HIDDEN: f64 = 0.1;
+
 /// Weight of a tie relative to the mean diagonal: what is left of a gap is far below anything printed. As rows ties might
 /// contradict bounds.
 const TIE: f64 = 10.0;
 
-/// Depths of the visible sub-mesh under `conditions`, of which the first `rows` are rows from the start and the others only
-/// where a solution breaks them.
+/// Depths of the visible sub-mesh (or of the whole) under `conditions`.
 pub fn depths(
     options: NormalOptions,
     target: &Target,
     map: &ViewMap,
     groups: &Groups,
-    conditions: &[Condition],
-    rows: usize,
+    conditions: &Conditions,
     opening: Option<&Opening>,
 ) -> Result<Depths, SolveError> {
     let seen = seen_solid_angles(target, map);
-    let index = Variables::new(target, &seen);
+    let taking_part: Vec<bool> = seen.iter().map(|s| groups.whole || *s > 0.0).collect();
+    let index = Variables::new(target, &taking_part);
     let unit = typical_width(groups);
     let scaled = opening.is_none();
     let variables = index.count + if scaled { groups.groups.len() } else { 0 };
-    let faces = Faces::new(options.weight, target, map, &seen, opening);
+    let faces = Faces::new(options.weight, target, map, &seen, &taking_part, opening);
     let tangent = |c: &Condition, s: &[f64]| {
         let harder = c.tightened(MARGIN * unit);
         index.tangent(&harder, s, unit, scaled)
     };
     let start = index.start(opening);
-    let mut first: Vec<Row> = conditions[..rows]
+    let mut first: Vec<Row> = conditions.all[..conditions.rows]
         .iter()
         .filter_map(|c| tangent(c, &start))
         .collect();
@@ -88,7 +90,7 @@ pub fn depths(
     }
     let (s, free) = depths(&u);
     let mu = match scaled {
-        true => scales(groups, conditions, &s, |g| free[g as usize]),
+        true => scales(groups, &conditions.all, &s, |g| free[g as usize]),
         false => free,
     };
     let solved = Solved {
@@ -120,23 +122,18 @@ fn linear(opening: Option<&Opening>, index: &Variables, unit: f64, variables: us
     linear
 }
 
-/// Where each vertex's `x` stands among the unknowns; vertices of unseen faces have none.
+/// Where each vertex's `x` stands among the unknowns; vertices of faces that take no part have none.
 struct Variables {
     of_vertex: Vec<Option<u32>>,
     count: usize,
 }
 
 impl Variables {
-    fn new(target: &Target, seen: &[f64]) -> Self {
+    fn new(target: &Target, taking_part: &[bool]) -> Self {
         let mut of_vertex = vec![None; target.mesh.vertices.len()];
         let mut count = 0;
-        for (face, _) in target
-            .mesh
-            .faces
-            .iter()
-            .zip(seen)
-            .filter(|(_, s)| **s > 0.0)
-        {
+        let faces = target.mesh.faces.iter().zip(taking_part);
+        for (face, _) in faces.filter(|(_, takes_part)| **takes_part) {
             for v in face {
                 of_vertex[*v as usize].get_or_insert_with(|| {
                     count += 1;
@@ -150,9 +147,9 @@ impl Variables {
         }
     }
 
-    /// The variable of a vertex of a seen face.
+    /// The variable of a vertex of a face that takes part.
     fn at(&self, vertex: u32) -> usize {
-        self.of_vertex[vertex as usize].expect("corners of seen faces take part") as usize
+        self.of_vertex[vertex as usize].expect("corners of such faces take part") as usize
     }
 
     /// The variables of a tie.
@@ -213,7 +210,7 @@ fn reweighted(tangent: f64) -> f64 {
     tangent.atan() / (tangent * tangent)
 }
 
-/// The seen faces: `tan^2 theta = sum over k of turn_k (x_(k+1) - x_(k+2))^2`, and how much each counts.
+/// The faces that take part: `tan^2 theta = sum over k of turn_k (x_(k+1) - x_(k+2))^2`, and how much each counts.
 struct Faces {
     /// Corners, `turn`, weight.
     faces: Vec<([u32; 3], [f64; 3], f64)>,
@@ -225,6 +222,7 @@ impl Faces {
         target: &Target,
         map: &ViewMap,
         seen: &[f64],
+        taking_part: &[bool],
         opening: Option<&Opening>,
     ) -> Self {
         let geometry = FaceGeometry::new(&target.mesh);
@@ -243,15 +241,17 @@ impl Faces {
             let factor = opening.map_or(1.0, |o| o.counts[f]);
             // As in the paper's Eq 13 weights count squared.
             let marked = target.face_weight(f).powi(2);
-            (target.mesh.faces[f], turn, weight * factor * marked)
+            let hidden = if seen[f] > 0.0 { 1.0 } else { HIDDEN * HIDDEN };
+            let all = weight * factor * marked * hidden;
+            (target.mesh.faces[f], turn, all)
         };
-        let seen = (0..seen.len()).filter(|f| seen[*f] > 0.0);
+        let faces = (0..seen.len()).filter(|f| taking_part[*f]);
         Self {
-            faces: seen.map(face).collect(),
+            faces: faces.map(face).collect(),
         }
     }
 
-    /// The quadratic form with every face's weight times `factor` (index: seen face), scaled and regularised.
+    /// The quadratic form with every face's weight times `factor` (index: face that takes part), scaled and regularised.
     fn energy(
         &self,
         index: &Variables,
@@ -274,7 +274,7 @@ impl Faces {
         regularised(energy, mean, ties)
     }
 
-    /// `tan theta` of a seen face under the depths `x` of the variables.
+    /// `tan theta` of the `n`th face under the depths `x` of the variables.
     fn turned(&self, n: usize, index: &Variables, x: impl Fn(usize) -> f64) -> f64 {
         let (corners, turn, _) = &self.faces[n];
         let x = corners.map(|v| x(index.at(v)));

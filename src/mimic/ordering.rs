@@ -32,7 +32,7 @@ pub struct Order {
     pub front_group: u32,
     pub back: Anchor,
     pub back_group: u32,
-    /// `depth_front / depth_back` in the model, below 1.
+    /// `depth_front / depth_back` in the model, below 1 (of a whole mesh a little more: see [`sheet_orders`](super::sheet_orders)).
     pub ratio: f64,
 }
 
@@ -57,6 +57,13 @@ pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
         vertices.extend(finder.vertices_inside(pair));
         edges.extend(finder.edges_crossing(pair));
     }
+    let mut found = sorted(vertices, edges);
+    found.all.extend(at_sides(target, map, groups));
+    found
+}
+
+/// Those of the events, each told by both its faces, with a vertex's nearest neighbours first.
+pub(super) fn sorted(mut vertices: Vec<VertexEvent>, mut edges: Vec<(EdgePair, Order)>) -> Orders {
     vertices.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     // Both faces of an edge tell of its crossings.
     edges.sort_by_key(|e: &(EdgePair, Order)| (e.0, e.1.front_group, e.1.back_group));
@@ -66,10 +73,7 @@ pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
         (0..vertices.len()).partition(|i| is_nearest(i));
     let of_vertices = nearest.iter().chain(&others).map(|i| vertices[*i].2);
     Orders {
-        all: of_vertices
-            .chain(edges.iter().map(|e| e.1))
-            .chain(at_sides(target, map, groups))
-            .collect(),
+        all: of_vertices.chain(edges.iter().map(|e| e.1)).collect(),
         nearest: nearest.len(),
     }
 }
@@ -103,7 +107,7 @@ fn at_sides(target: &Target, map: &ViewMap, groups: &Groups) -> Vec<Order> {
 
 /// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they are no
 /// farther `apart` than that, millimetres.
-fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Option<(bool, Order)> {
+pub(super) fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Option<(bool, Order)> {
     let [own, other] = at.map(|a| a.1);
     if (own - other).abs() <= apart {
         return None;
@@ -121,9 +125,9 @@ fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Option<(bool, 
 }
 
 /// The vertices of two edges, each pair rising.
-type EdgePair = [[u32; 2]; 2];
+pub(super) type EdgePair = [[u32; 2]; 2];
 /// A vertex, its group and whether it is behind a face; how far, relatively; the order of both.
-type VertexEvent = ((u32, u32, bool), f64, Order);
+pub(super) type VertexEvent = ((u32, u32, bool), f64, Order);
 
 struct Finder<'a> {
     target: &'a Target,
@@ -204,7 +208,7 @@ fn seen_faces(map: &ViewMap) -> Vec<u32> {
 }
 
 /// Pairs of faces whose boxes in the image overlap, each once: a sweep over their left ends.
-fn overlapping(target: &Target, faces: &[u32]) -> Vec<[u32; 2]> {
+pub(super) fn overlapping(target: &Target, faces: &[u32]) -> Vec<[u32; 2]> {
     let image_box = |f: &u32| {
         let [a, b, c] = target.image_of(*f as usize);
         (a.min(b).min(c), a.max(b).max(c), *f)

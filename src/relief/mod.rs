@@ -13,7 +13,7 @@ pub use block::{Block, block};
 
 use crate::groups::{Groups, anchor, layer_in};
 use crate::mimic::Depths;
-use crate::viewmap::{SupportField, Target, ViewMap};
+use crate::viewmap::{Cell, SupportField, Target, ViewMap};
 
 /// The cut and scaled-back surface of one view.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Relief {
     pub free: Vec<[bool; 3]>,
 }
 
-/// Cuts and scales back.
+/// Cuts and scales back; of a whole mesh gives what is seen of it.
 pub fn relief(
     map: &ViewMap,
     target: &Target,
@@ -34,6 +34,9 @@ pub fn relief(
     groups: &Groups,
     depths: &Depths,
 ) -> Relief {
+    if groups.whole {
+        return of_whole(map, target, groups, depths);
+    }
     let mut clamp_mm = 0.0f64;
     let mut depth = vec![None; map.cells.len()];
     let marked = if target.free.is_empty() {
@@ -68,5 +71,21 @@ pub fn relief(
         depth,
         clamp_mm,
         free: no_layer,
+    }
+}
+
+/// What is seen of a mesh that stays whole: nothing is clamped, because the mesh itself is built, and its bounds are looked at there.
+fn of_whole(map: &ViewMap, target: &Target, groups: &Groups, depths: &Depths) -> Relief {
+    let of_cell = |(c, cell): (usize, &Cell)| {
+        let (group, face) = (groups.of_cell[c]?, cell.face?);
+        Some(cell.corners.map(|p| {
+            let (anchor, depth) = anchor(target, face as usize, map.points[p as usize]);
+            depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize]
+        }))
+    };
+    Relief {
+        depth: map.cells.iter().enumerate().map(of_cell).collect(),
+        clamp_mm: 0.0,
+        free: vec![[true; 3]; map.cells.len()],
     }
 }

@@ -17,6 +17,7 @@ use crate::mimic::Iterated;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
 use crate::view::View;
+use crate::whole::Crossings;
 use glam::{DMat4, DVec3};
 use serde::Serialize;
 
@@ -131,6 +132,9 @@ pub struct CertificateReport {
     pub relief_back_mm: f64,
     /// Places where a farther sheet of the model comes before a nearer one.
     pub order_inversions: usize,
+    /// What crosses in the optimised surface, hidden parts included, before it is cut; only where all of the mesh is optimised.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<Crossings>,
     /// Proof that the depths are the optimum of their program; none where they are not meant to be one.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Proof>,

@@ -6,6 +6,7 @@ use crate::planner::Matters;
 use crate::scene::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 use crate::support::{Datum, Layer, SUNK_MM};
+use crate::whole::Bounded;
 
 /// Title of a scene that has none.
 pub const TITLE: &str = "Pillar forest";
@@ -142,6 +143,9 @@ pub const ITERATE: std::ops::RangeInclusive<u32> = 0..=100;
 pub const GRADIENT: GradientOptions = GradientOptions { compression: 1.0 };
 pub const COMPRESSION: std::ops::RangeInclusive<f64> = 0.0..=1000.0;
 pub const ENERGY: Energy = Energy::Normal(NORMAL);
+
+/// What of whole meshes is held: more of them is a relief of a few millimetres.
+pub const BOUNDED: Bounded = Bounded::Seen;
 
 /// Who gets surface that two views want: with the order of the views the user decides.
 pub const CONTESTED: Contested = Contested::First;

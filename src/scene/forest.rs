@@ -220,6 +220,11 @@ impl Forest {
             .collect()
     }
 
+    /// Supports that are no pillars.
+    pub fn bodies(&self) -> &[Support] {
+        &self.bodies
+    }
+
     /// The solids, and what is to be done about them.
     pub fn finished(self) -> (Vec<Support>, Option<Brief>) {
         let mut supports = self.supports.solids();

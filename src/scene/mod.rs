@@ -34,6 +34,7 @@ mod spanned;
 mod supports;
 mod template;
 mod tree;
+mod whole;
 
 pub use laid::{laid_out, layout_text};
 pub use quality::{Quality, at_quality};
@@ -49,6 +50,7 @@ use crate::planner::{Adjustment, Brief};
 use crate::steps::StepOptions;
 use crate::support::Support;
 use crate::view::View;
+use crate::whole::Bounded;
 
 /// A resolved scene: millimetres, every mesh loaded and placed, every default filled in.
 #[derive(Clone, Debug)]
@@ -66,6 +68,8 @@ pub struct Scene {
     pub energy: Energy,
     /// `None`: the surface stays in one piece, as in the paper.
     pub steps: Option<StepOptions>,
+    /// What of meshes is held that are deformed as a whole; `None`: reliefs are height fields.
+    pub whole: Option<Bounded>,
     /// Who gets surface that two views want.
     pub contested: Contested,
     pub printer: Printer,

@@ -42,6 +42,7 @@ raw! {
         base: RawBase,
         depth: RawDepth,
         energy: RawEnergy,
+        relief: RawRelief,
         contested: RawContested,
         printer: RawPrinter,
         output: RawOutput,
@@ -166,6 +167,7 @@ raw! {
         hidden_weight: f64, ordering: bool, scale_invariant: bool, group_scales: bool, mean_curvature: bool, iterate: u32,
         form: RawCurvatureForm,
     }
+    struct RawWhole, "`Whole(bounded: Seen)`" { bounded: RawBounded, }
     struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
@@ -298,6 +300,18 @@ pub enum RawEnergy {
     Gradient(RawGradient),
 }
 
+#[derive(Debug, Deserialize)]
+pub enum RawRelief {
+    HeightField,
+    Whole(RawWhole),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum RawBounded {
+    Outline,
+    Seen,
+}
+
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum RawCurvatureForm {
     Quadratic,
@@ -386,6 +400,8 @@ wanted! {
     RawSupport => "`Plate(...)`, `Strips(...)`, `Stairs(...)`, `Groove(...)`, `Wave(...)` or `Mesh(...)`";
     RawHeights => "`Formula(\"3 * sin(x / 8)\")` or `Image(file: \"sea.png\", from: 0, to: 5)`";
     RawEnergy => "`Normal(...)`, `Curvature(...)`, `Linear` or `Gradient(...)`";
+    RawRelief => "`HeightField` or `Whole(...)`";
+    RawBounded => "Outline or Seen";
     RawCurvatureForm => "Quadratic or Conic";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";

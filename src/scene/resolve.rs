@@ -11,7 +11,7 @@ use super::placing::{self, Placing};
 use super::raw::{List, RawModel, RawScene, RawView};
 use super::reader::{Reader, Span, error_at, nearest, placed, printable, short, warning_at};
 use super::spanned::Field;
-use super::{defaults, detail, lexer, marks, names, options};
+use super::{defaults, detail, lexer, marks, names, options, whole};
 use crate::diag::{Diagnostic, Severity, Warned};
 use crate::geom::FAR_MM;
 use crate::mesh::{Original, TriMesh};
@@ -142,11 +142,16 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     let forest = forest::forest(reader, raw, &whole, &around);
     let energy = options::energy(reader, &raw.energy);
     let steps = options::steps(reader, &raw.energy, forest.most_pillars(), &printer);
+    let held = whole::whole(reader, raw);
     let contested = options::contested(reader, &raw.contested);
     let output = options::output(reader, &raw.output);
     forest.check(reader, &eyes, &around);
+    whole::check_supports(reader, raw, held, forest.bodies());
     for model in models.iter_mut().flatten() {
         load(reader, model, read);
+        if let (Some(_), Some(mesh)) = (held, &model.mesh) {
+            whole::check_closed(reader, mesh, &model.name, &model.file_span);
+        }
     }
     lower(reader, models.as_deref_mut().unwrap_or_default(), &output);
     let adjusted = forest.adjusted(&around.views);
@@ -160,7 +165,10 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
         })
         .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
-    let (supports, brief) = forest.finished();
+    let (mut supports, brief) = forest.finished();
+    if held.is_some() {
+        whole::hold_outlines(&mut supports);
+    }
     sound.then_some(Scene {
         title,
         views,
@@ -168,7 +176,8 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
         brief,
         adjusted,
         energy,
-        steps,
+        steps: steps.filter(|_| held.is_none()),
+        whole: held,
         contested,
         printer,
         output,

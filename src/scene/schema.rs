@@ -105,6 +105,7 @@ fn scene_sections() -> Vec<Section> {
             field("base", "Disc(...) | Rectangle(...) | None", "Disc(); None without pillars", "what the pillars stand on"),
             field("depth", "depth", "see depth", "where reliefs may lie, for all pillars"),
             field("energy", "Normal(...) | Curvature(...) | Linear | Gradient(...)", energy(), "what is optimised; Linear: nothing, depth is compressed linearly into the layer"),
+            field("relief", "HeightField | Whole(...)", "HeightField", "what is built: what the eye sees, or whole closed models, on other supports than pillars"),
             field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
             field("printer", "printer", "see printer", "what the checks have in mind"),
             field("output", "output", "see output", "which files are written"),
@@ -388,6 +389,9 @@ fn other_sections() -> Vec<Section> {
             field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
             field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),
         ]),
+        section("Whole(...)", "Whole closed models are deformed along the eye's rays, front, back and what is hidden; their outline lies on the support, free regions are held by nothing. Energy: Normal or Curvature.", vec![
+            field("bounded", "Outline | Seen", "Seen", "what else is held: nothing, or all that is seen within `front` of the support"),
+        ]),
         section("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
             field("compression", "number", defaults::GRADIENT.compression, "alpha of log(1 + alpha g) / alpha, 0 to 1000: more evens out steep and gentle slopes; 0 is Linear without silhouettes"),
         ]),
@@ -511,6 +515,7 @@ mod tests {
             ("Normal(...)", fields_of::<raw::RawNormal>()),
             ("Allowed(...)", fields_of::<raw::RawStepOptions>()),
             ("Curvature(...)", fields_of::<raw::RawCurvature>()),
+            ("Whole(...)", fields_of::<raw::RawWhole>()),
             ("Gradient(...)", fields_of::<raw::RawGradient>()),
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),

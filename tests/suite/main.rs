@@ -39,3 +39,4 @@ mod surface;
 mod tolerance;
 mod visibility;
 mod walls;
+mod whole;

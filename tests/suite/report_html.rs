@@ -58,6 +58,7 @@ fn certificate() -> CertificateReport {
         relief_front_mm: 4.75,
         relief_back_mm: 1.625,
         order_inversions: 41,
+        crossings: None,
         proof: Some(Proof {
             duality_gap_rel: 5.37e-8,
             primal_residual: 6.5e-12,

@@ -474,6 +474,7 @@ fn bundled_scenes_resolve_without_a_word() {
     for (name, supports) in [
         ("fig03-stairs", 1),
         ("fig04-groove", 1),
+        ("fig12-free", 1),
         ("fig13-wave", 1),
         ("fig16-strips", 5),
         ("fig17-herd", 1),

@@ -17,7 +17,7 @@ mod sheet;
 
 pub use iterate::{Ending, Iterated, Round};
 
-use super::conditions::{Condition, plain_tangent};
+use super::conditions::{Condition, Conditions, plain_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, gathered};
 use super::{
@@ -33,8 +33,7 @@ use sheet::{Form, Sheet};
 /// surface.
 const ALPHA: f64 = 1e-9;
 
-/// Depths of the whole mesh under `conditions`, of which the first `rows` are rows from the start and the others only where
-/// a solution breaks them.
+/// Depths of the whole mesh under `conditions`.
 ///
 /// # Errors
 /// If the first program is infeasible or cannot be solved. What befalls later ones of an iteration is told in the result.
@@ -43,8 +42,7 @@ pub fn depths(
     target: &Target,
     map: &ViewMap,
     groups: &Groups,
-    conditions: &[Condition],
-    rows: usize,
+    conditions: &Conditions,
 ) -> Result<Depths, SolveError> {
     let model = Sheet::new(&target.mesh, map.plane.eye);
     let problem = Problem {
@@ -53,7 +51,6 @@ pub fn depths(
         map,
         groups,
         conditions,
-        rows,
         unit: typical_width(groups),
         visible: visible_vertices(target, map),
         model,
@@ -77,8 +74,7 @@ struct Problem<'a> {
     target: &'a Target,
     map: &'a ViewMap,
     groups: &'a Groups,
-    conditions: &'a [Condition],
-    rows: usize,
+    conditions: &'a Conditions,
     /// Of all unknowns, in relative depth.
     unit: f64,
     visible: Vec<bool>,
@@ -107,7 +103,7 @@ impl Problem<'_> {
             let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
             Some(if scaled { row } else { row.without(n) })
         };
-        let first = self.conditions[..self.rows].iter();
+        let first = self.conditions.all[..self.conditions.rows].iter();
         let mut program = Program {
             variables,
             linear,
@@ -247,7 +243,7 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
         blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
     }
     let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
-    for [front, back] in problem.conditions.iter().filter_map(sides) {
+    for [front, back] in problem.conditions.all.iter().filter_map(sides) {
         blocks.join(front, back);
     }
     let held = |set: &[u32]| {
