@@ -45,7 +45,7 @@ pub struct Turntable {
 
 /// The angle of picture `k`, degrees; positive: the eye has gone to its right.
 pub fn angle_deg(k: usize) -> f64 {
-    LAST_DEG * (2.0 * k as f64 / (PICTURES - 1) as f64 - 1.0)
+    2.0 * LAST_DEG * k as f64 / (PICTURES - 1) as f64 - LAST_DEG
 }
 
 impl Turntable {

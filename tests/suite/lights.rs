@@ -444,7 +444,8 @@ fn a_plate_behind_the_model_gets_less_of_the_flash() {
     );
     let found = flash_of(&far);
     let flash = DVec3::new(5.0, -15.0, 20.0);
-    let unit2 = 5f64.powi(2) + 10f64.powi(2);
+    // To the nearest vertex, a corner.
+    let unit2: f64 = 5.0 * 5.0 + 10.0 * 10.0 + 5.0 * 5.0;
     let shade = |p: DVec3| {
         let way = flash - p;
         way.x * unit2 / way.length().powi(3)

