@@ -273,7 +273,10 @@ impl Decimater<Halves> for ByError<'_> {
         let along_border = h.is_boundary(mesh) || h.opposite().is_boundary(mesh);
         let held = self.surfaces.touching[from.index() as usize]
             || (from.is_boundary(mesh) && !along_border);
-        if held || !self.stays_sound(mesh, from, to) {
+        // Two neighbours of three edges each: a tetrahedron, which would become flat.
+        let edges = |v: VH| mesh.vv_ccw_iter(v).count();
+        let last = edges(from) <= 3 && edges(to) <= 3;
+        if held || last || !self.stays_sound(mesh, from, to) {
             return None;
         }
         let [p, q] = [from, to].map(|v| self.points[v.index() as usize]);

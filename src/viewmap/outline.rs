@@ -6,9 +6,13 @@ use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;
 use crate::support::SupportKind;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Unit normals that differ by less belong to one plane: rounding of coordinates.
 const PLANE: f64 = 1e-9;
+
+/// A ray through a line grazes the line's own support there: hits nearer by less than this are its own, millimetres.
+const GRAZED: f64 = 1e-3;
 
 /// A piece of outline in the image.
 pub type Segment = [DVec2; 2];
@@ -43,20 +47,34 @@ pub fn seen_outlines(
             }
         }
     }
-    let mut far: Vec<Line> = far_edges(field, plane.eye)
-        .iter()
-        .filter_map(|e| line(plane, *e))
-        .collect();
-    far.retain_mut(|l| clip(l, window));
-    seen.extend(far.iter().map(|l| l.image));
+    seen.extend(far_outlines(plane, field, window));
     seen
 }
 
-/// All edges of faces turned away from the eye where a layer goes through walls, hidden or not: no cell then has two planes at
-/// which its rays leave the wall.
-fn far_edges(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
+/// Where rays pass from one plane to the next on leaving the wall that they first meet, where a layer goes through that.
+fn far_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)) -> Vec<Segment> {
+    let edges = far_edges(field, plane.eye);
+    let clipped = edges.into_iter().filter_map(|(support, ends)| {
+        let mut l = line(plane, ends)?;
+        clip(&mut l, window).then_some((support, l))
+    });
+    let (supports, lines): (Vec<u32>, Vec<Line>) = clipped.unzip();
+    let pieces = |i: usize| {
+        let l: &Line = &lines[i];
+        let cuts = cuts(&lines, i);
+        let pairs = cuts.windows(2).filter(|p| p[1] - p[0] > 1e-12);
+        let ends = pairs.filter(|p| is_in_wall(plane, field, supports[i], l, p[0].midpoint(p[1])));
+        let image = |t: f64| l.image[0].lerp(l.image[1], t);
+        ends.map(|p| [image(p[0]), image(p[1])]).collect()
+    };
+    let pieces: Vec<Vec<Segment>> = (0..lines.len()).into_par_iter().map(pieces).collect();
+    pieces.concat()
+}
+
+/// Edges of faces turned away from the eye of supports whose layers go through walls, with their supports.
+fn far_edges(field: &SupportField, eye: DVec3) -> Vec<(u32, [DVec3; 2])> {
     let mesh = &field.mesh;
-    let through = |h: &HalfEdge| field.goes_through(field.owner[h.face as usize]);
+    let owner = |sides: &[HalfEdge]| field.owner[sides[0].face as usize];
     let away = |h: &HalfEdge| {
         let face = h.face as usize;
         mesh.area_vector(face).dot(eye - mesh.corners(face)[0]) <= 0.0
@@ -64,10 +82,18 @@ fn far_edges(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
     let edges = Edges::new(mesh);
     let wanted = edges
         .iter()
-        .filter(|sides| through(&sides[0]) && sides.iter().any(away));
+        .filter(|sides| field.goes_through(owner(sides)) && sides.iter().any(away));
     let ends =
         |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
-    wanted.map(ends).collect()
+    wanted.map(|sides| (owner(sides), ends(sides))).collect()
+}
+
+/// Whether the line at parameter `t` lies between where a ray meets the support and where it leaves it again.
+fn is_in_wall(plane: &ImagePlane, field: &SupportField, support: u32, l: &Line, t: f64) -> bool {
+    let direction = plane.direction(l.image[0].lerp(l.image[1], t));
+    let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
+    let wall = field.wall(support, plane.eye, direction);
+    wall.is_some_and(|(first, leaves)| (first.t - GRAZED..=leaves.t + GRAZED).contains(&depth))
 }
 
 /// Edges between a face turned to the eye and one turned away (or no face), and those between two planes of a surface that a
@@ -177,8 +203,7 @@ fn cuts(lines: &[Line], i: usize) -> Vec<f64> {
 fn is_seen(plane: &ImagePlane, field: &SupportField, l: &Line, t: f64) -> bool {
     let q = l.image[0].lerp(l.image[1], t);
     let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
-    // The ray grazes the line's own support there: a hit nearer by less than a thousandth of a millimetre is its own.
     field
         .first_hit(plane.eye, plane.direction(q))
-        .is_none_or(|(_, z)| z > depth - 1e-3)
+        .is_none_or(|(_, z)| z > depth - GRAZED)
 }
