@@ -8,6 +8,7 @@ mod certificates_coverage;
 mod cli;
 mod dense;
 mod diagram;
+mod dual;
 mod energies;
 mod files;
 mod formats;
