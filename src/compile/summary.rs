@@ -4,7 +4,7 @@ use super::Built;
 use super::certificates::Certificates;
 use super::pictures::Pictures;
 use crate::diag::Diagnostic;
-use crate::mimic::Solved;
+use crate::mimic::{Method, Solved};
 use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
 
 /// Gathers what every stage found; gives back what of the models does not reach its viewer.
@@ -83,6 +83,10 @@ fn program(solved: &Solved) -> ProgramReport {
         variables: solved.variables,
         rows: solved.rows,
         blocks: solved.blocks,
+        method: match solved.method {
+            Method::InteriorPoint => "interior point",
+            Method::DualWorkingSet => "dual working set",
+        },
         active_rows: solved.optimality.active,
         iterations: solved.iterations,
         objective: solved.optimality.objective,

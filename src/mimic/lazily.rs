@@ -1,8 +1,9 @@
 //! Solving with curved conditions: rows are added only where a solution needs them.
 
 use super::conditions::{Condition, Conditions};
+use super::dual::Dual;
 use super::program::{Program, Row};
-use super::solve::{SolveError, Solved, solve, solve_again};
+use super::solve::{Method, Solution, SolveError, Solved, solve, solve_again};
 
 /// Log depth that a condition may be broken by, times the view's focal length: a quarter of a nanometre at 250 mm, above the rounding
 /// of sums.
@@ -33,7 +34,8 @@ impl Meaning<'_> {
     }
 }
 
-/// Solves `program`, whose rows hold the tangents of some conditions already, until all of `conditions` hold.
+/// Solves `program`, whose rows hold the tangents of some conditions already, until all of `conditions` hold; by `method` as far as
+/// that goes, else by the interior point.
 ///
 /// # Errors
 /// As [`solve`].
@@ -41,8 +43,10 @@ pub fn solve_lazily(
     program: &mut Program,
     conditions: &Conditions,
     meaning: &Meaning,
+    method: Method,
 ) -> Result<(Vec<f64>, Solved), SolveError> {
-    let mut solution = solve(program)?;
+    let mut solver = Solver::new(program, method);
+    let mut solution = solver.solve(program)?;
     let first = solution.solved.optimality.objective;
     let (mut rounds, before) = (0, program.rows.len());
     let most = match conditions.urgent {
@@ -66,7 +70,7 @@ pub fn solve_lazily(
         rounds += 1;
         let old = program.rows.len();
         program.rows.extend(rows);
-        match solve_again(program, &solution, old) {
+        match solver.solve_again(program, &solution, old) {
             Ok(better) => solution = better,
             // What the last solution breaks is counted below.
             Err(SolveError::Unsolved(_)) => {
@@ -87,4 +91,42 @@ pub fn solve_lazily(
         ..solution.solved
     };
     Ok((solution.u, solved))
+}
+
+/// A program on its way through the rounds.
+struct Solver {
+    dual: Option<Dual>,
+}
+
+impl Solver {
+    fn new(program: &Program, method: Method) -> Self {
+        let dual = match method {
+            Method::DualWorkingSet => Dual::new(program),
+            Method::InteriorPoint => None,
+        };
+        Self { dual }
+    }
+
+    fn solve(&mut self, program: &Program) -> Result<Solution, SolveError> {
+        self.by_dual(program).map_or_else(|| solve(program), Ok)
+    }
+
+    fn solve_again(
+        &mut self,
+        program: &Program,
+        before: &Solution,
+        new_rows: usize,
+    ) -> Result<Solution, SolveError> {
+        let again = || solve_again(program, before, new_rows);
+        self.by_dual(program).map_or_else(again, Ok)
+    }
+
+    /// Once it is at its limits it stays there.
+    fn by_dual(&mut self, program: &Program) -> Option<Solution> {
+        let solution = self.dual.as_mut()?.solve(program);
+        if solution.is_none() {
+            self.dual = None;
+        }
+        solution
+    }
 }

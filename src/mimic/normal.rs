@@ -5,6 +5,7 @@
 //! `q` is the surface gradient of `1/s`, its normal part `1/(h s)`. So `E(x) = sum of a_f h_f^2 |grad_f x|^2` measures what the
 //! paper's Eq 2 asks for, as one weighted cotangent matrix. Bounds are linear in `x - m`, groups additive.
 
+use super::Method;
 use super::conditions::{Condition, Conditions, Side, log_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
@@ -82,11 +83,12 @@ pub fn depths(
         tangent: &tangent,
         focal: map.plane.focal,
     };
-    let (mut u, mut solved) = solve_lazily(&mut program, conditions, &meaning)?;
+    let (mut u, mut solved) =
+        solve_lazily(&mut program, conditions, &meaning, Method::InteriorPoint)?;
     for _ in 0..options.reweight {
         let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
         program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
-        (u, solved) = solve_lazily(&mut program, conditions, &meaning)?;
+        (u, solved) = solve_lazily(&mut program, conditions, &meaning, Method::InteriorPoint)?;
     }
     let (s, free) = depths(&u);
     let mu = match scaled {

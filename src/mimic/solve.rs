@@ -19,6 +19,15 @@ const MAX_ITERATIONS: u32 = 200;
 /// four digits, and the certificate refuses them.
 const CONIC_TOLERANCE: f64 = 1e-11;
 
+/// How a program was solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    #[default]
+    InteriorPoint,
+    /// One factorisation and a small dual (`dual`).
+    DualWorkingSet,
+}
+
 /// What was reached for a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solved {
@@ -26,7 +35,8 @@ pub struct Solved {
     pub rows: usize,
     /// Independent parts that were solved one by one.
     pub blocks: usize,
-    /// Of the part that needed most.
+    pub method: Method,
+    /// Of the part that needed most; of the dual working set, rounds in which rows were taken in hand.
     pub iterations: u32,
     /// Objective, residuals and duality gap, measured on the result.
     pub optimality: Optimality,

@@ -211,6 +211,8 @@ pub struct ProgramReport {
     pub rows: usize,
     /// Independent parts that were solved one by one.
     pub blocks: usize,
+    /// `interior point` or `dual working set`.
+    pub method: &'static str,
     pub active_rows: usize,
     pub iterations: u32,
     /// Scaled so that the mean diagonal of the quadratic form is 1: comparable between runs of one scene only.

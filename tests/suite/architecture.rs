@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates that only the listed files or folders of `src` may name.
-const OWNERS: [(&str, &[&str]); 14] = [
+const OWNERS: [(&str, &[&str]); 15] = [
     ("alum", &["mesh/simplify.rs"]),
     ("obvhs", &["bvh.rs"]),
     ("spade", &["viewmap/arrange.rs"]),
     ("clarabel", &["mimic/solve.rs"]),
+    ("faer", &["mimic/dual/factor.rs"]),
     ("manifold_rust", &["carve/boolean.rs"]),
     ("i_overlay", &["carve/hollow.rs"]),
     ("tobj", &["formats/"]),

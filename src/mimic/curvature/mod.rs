@@ -21,7 +21,7 @@ use super::conditions::{Condition, Conditions, plain_tangent};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::program::{Program, Quadratic, Row, gathered};
 use super::{
-    CurvatureForm, CurvatureOptions, Depths, SolveError, Solved, scales, seen_solid_angles,
+    CurvatureForm, CurvatureOptions, Depths, Method, SolveError, Solved, scales, seen_solid_angles,
     typical_width,
 };
 use crate::groups::Groups;
@@ -136,7 +136,11 @@ impl Problem<'_> {
             tangent: &tangent,
             focal: self.map.plane.focal,
         };
-        let (u, solved) = solve_lazily(&mut program, self.conditions, &meaning)?;
+        let method = match self.options.form {
+            CurvatureForm::Quadratic => Method::DualWorkingSet,
+            CurvatureForm::Conic => Method::InteriorPoint,
+        };
+        let (u, solved) = solve_lazily(&mut program, self.conditions, &meaning, method)?;
         let (s, _) = depths(&u);
         let mu = match scaled {
             true => scales(self.groups, &[], &s, |_| 1.0),

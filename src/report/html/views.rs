@@ -208,6 +208,7 @@ fn program(p: &ProgramReport) -> Vec<(&'static str, String)> {
         ("Conditions", count(p.rows)),
         ("Parts solved one by one", count(p.blocks)),
         ("Conditions that hold something back", count(p.active_rows)),
+        ("Solved by", escaped(p.method)),
         ("Iterations", count(p.iterations as usize)),
         ("Energy", tiny(p.objective)),
         (
