@@ -273,9 +273,8 @@ impl Decimater<Halves> for ByError<'_> {
         let along_border = h.is_boundary(mesh) || h.opposite().is_boundary(mesh);
         let held = self.surfaces.touching[from.index() as usize]
             || (from.is_boundary(mesh) && !along_border);
-        // Two neighbours of three edges each: a tetrahedron, which would become flat.
-        let edges = |v: VH| mesh.vv_ccw_iter(v).count();
-        let last = edges(from) <= 3 && edges(to) <= 3;
+        // A tetrahedron would become flat; it has three edges at every vertex.
+        let last = !from.is_boundary(mesh) && mesh.vv_ccw_iter(from).count() <= 3;
         if held || last || !self.stays_sound(mesh, from, to) {
             return None;
         }
