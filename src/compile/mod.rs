@@ -233,7 +233,19 @@ fn solids(
             carve(field, &reliefs)
         }
     };
-    forest.map_err(|e| vec![Diagnostic::error(e.to_string())])
+    forest.map_err(|e| {
+        let error = Diagnostic::error(e.to_string());
+        let crossings = shapes.iter().filter_map(|s| s.crossings);
+        let pairs: usize = crossings.map(|c| c.self_intersections).sum();
+        let whole = shapes.iter().any(|s| s.whole.is_some());
+        vec![if whole && pairs > 0 {
+            error.help(format!(
+                "whole meshes cross themselves at {pairs} pairs of faces: `ordering: true` in `energy` prevents it"
+            ))
+        } else {
+            error
+        }]
+    })
 }
 
 /// All results, or all errors of all views.
