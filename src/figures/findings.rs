@@ -3,6 +3,9 @@
 use super::made::Made;
 use crate::compile::OutputFile;
 
+/// A number by its name, which tells its unit.
+pub type Number = (&'static str, f64);
+
 /// Everything found for a figure.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
@@ -22,8 +25,7 @@ pub struct Case {
     /// Path of the scene, for people.
     pub scene: String,
     pub sets: Vec<String>,
-    /// Numbers by name; names tell the units.
-    pub measured: Vec<(&'static str, f64)>,
+    pub measured: Vec<Number>,
     /// Whether the build kept its promises; true where a case is there to show what happens without.
     pub ok: bool,
 }
@@ -47,12 +49,7 @@ impl Findings {
     ///
     /// # Errors
     /// The report lacks a number.
-    pub fn case(
-        &mut self,
-        name: &str,
-        made: &Made,
-        more: &[(&'static str, f64)],
-    ) -> Result<(), String> {
+    pub fn case(&mut self, name: &str, made: &Made, more: &[Number]) -> Result<(), String> {
         self.add(name, made, more, made.keeps_promises())
     }
 
@@ -60,22 +57,11 @@ impl Findings {
     ///
     /// # Errors
     /// The report lacks a number.
-    pub fn counter_case(
-        &mut self,
-        name: &str,
-        made: &Made,
-        more: &[(&'static str, f64)],
-    ) -> Result<(), String> {
+    pub fn counter_case(&mut self, name: &str, made: &Made, more: &[Number]) -> Result<(), String> {
         self.add(name, made, more, true)
     }
 
-    fn add(
-        &mut self,
-        name: &str,
-        made: &Made,
-        more: &[(&'static str, f64)],
-        ok: bool,
-    ) -> Result<(), String> {
+    fn add(&mut self, name: &str, made: &Made, more: &[Number], ok: bool) -> Result<(), String> {
         let mut measured = vec![
             ("error_mean_deg", made.error_deg()?),
             ("error_median_deg", made.mean("/normal_error_deg/median")?),
@@ -90,7 +76,7 @@ impl Findings {
     }
 
     /// Adds a row of numbers without pictures.
-    pub fn row(&mut self, name: &str, made: &Made, measured: &[(&'static str, f64)], ok: bool) {
+    pub fn row(&mut self, name: &str, made: &Made, measured: &[Number], ok: bool) {
         let mut measured = measured.to_vec();
         measured.push(("seconds", made.seconds));
         measured.extend(made.peak_mb.map(|mb| ("peak_memory_mb", mb)));

@@ -1,5 +1,6 @@
 //! Reliefs on supports of all kinds: Figs 3, 4, 12 to 17.
 
+use super::findings::Number;
 use super::workshop::{LEAN, Workshop, with};
 use super::{Figure, Findings, Made};
 
@@ -192,7 +193,7 @@ fn herd(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
 }
 
 /// How far reliefs come before their datum and go behind it.
-pub fn layer(made: &Made) -> Result<((&'static str, f64), (&'static str, f64)), String> {
+pub fn layer(made: &Made) -> Result<(Number, Number), String> {
     let front = made.most("/certificate/relief_front_mm")?;
     let back = made.most("/certificate/relief_back_mm")?;
     Ok((("relief_front_mm", front), ("relief_back_mm", back)))
