@@ -53,16 +53,18 @@ pub fn solve_lazily(
         0 => ROUNDS,
         _ => ROUNDS_OF_WHOLE,
     };
+    let mut urgent = conditions.urgent;
     while rounds < most {
         let (s, mu) = (meaning.depths)(&solution.u);
         let tangents = |list: &[Condition]| -> Vec<Row> {
             let broken = list.iter().filter(|c| meaning.breaks(c, &s, &mu));
             broken.filter_map(|c| (meaning.tangent)(c, &s)).collect()
         };
-        let (urgent, others) = conditions.all.split_at(conditions.urgent);
-        let mut rows = tangents(urgent);
+        let mut rows = tangents(&conditions.all[..urgent]);
         if rows.is_empty() {
-            rows = tangents(others);
+            // From here on all that is broken at once: one by one, events of either kind break the others' rows again.
+            urgent = 0;
+            rows = tangents(&conditions.all);
         }
         if rows.is_empty() {
             break;
