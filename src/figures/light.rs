@@ -3,11 +3,15 @@
 use super::workshop::Workshop;
 use super::{Figure, Findings};
 
-/// Scenes that are looked at in every light: a thin layer, a relief that is no height field, and the forest.
-const SCENES: [(&str, &str); 3] = [
-    ("fish in the sea", "fig13-wave"),
-    ("owl on stairs", "fig03-stairs"),
-    ("forest, first view", "../four-creatures"),
+/// Scenes that are looked at in every light, all of them torn: with normals that are right, what goes wrong is the light's doing.
+const SCENES: [(&str, &str, &[&str]); 3] = [
+    (
+        "fish in the sea",
+        "fig13-wave",
+        &["energy=Normal(steps: Allowed())"],
+    ),
+    ("owl on stairs", "fig03-stairs", &[]),
+    ("forest, first view", "../four-creatures", &[]),
 ];
 const SUNS: [&str; 3] = ["sun_15", "sun_30", "sun_60"];
 
@@ -20,8 +24,8 @@ pub const SUN_AND_CLOUD: Figure = Figure {
 };
 
 fn sun_and_cloud(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
-    for (name, scene) in SCENES {
-        let made = shop.build(name, scene, &[])?;
+    for (name, scene, sets) in SCENES {
+        let made = shop.build(name, scene, sets)?;
         let rmse = |light: &str| made.in_light(light, "rmse");
         let measured = [
             ("overcast_rmse", rmse("overcast")?),
@@ -63,31 +67,31 @@ pub const FLASH: Figure = Figure {
 };
 
 fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
-    for (name, scene) in SCENES {
-        let made = shop.build(name, scene, &[])?;
+    for (name, scene, sets) in SCENES {
+        let made = shop.build(name, scene, sets)?;
+        let shading = "rmse_unshadowed";
         let [flash, cloudy] = [
-            made.in_light("flash", "rmse")?,
-            made.in_light("overcast", "rmse")?,
+            made.in_light("flash", shading)?,
+            made.in_light("overcast", shading)?,
         ];
         let measured = [
-            ("flash_rmse", flash),
-            (
-                "flash_without_shadows_rmse",
-                made.in_light("flash", "rmse_unshadowed")?,
-            ),
+            ("flash_rmse", made.in_light("flash", "rmse")?),
+            ("flash_without_shadows_rmse", flash),
             (
                 "flash_false_shadow_share",
                 made.in_light("flash", "false_shadow_share")?,
             ),
-            ("overcast_rmse", cloudy),
+            ("overcast_rmse", made.in_light("overcast", "rmse")?),
+            ("overcast_without_shadows_rmse", cloudy),
         ];
         found.row(name, &made, &measured, made.keeps_promises());
         sheet(found, name, &made);
         found.claim(
-            flash > cloudy,
-            format!("{name}: brightness is off by {flash:.0} of 255 in the flash and by {cloudy:.0} under clouds"),
+            flash > 2.0 * cloudy,
+            format!("{name}: shading alone is off by {flash:.0} of 255 in the flash and by {cloudy:.0} under clouds"),
         );
     }
+    found.note("Shading alone: without cast shadows. A lamp this near lights a thin relief from other directions and distances than the model, so that even right normals look wrong.");
     Ok(())
 }
 

@@ -119,7 +119,10 @@ fn forest(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("forest", "../four-creatures", &[])?;
     let camouflage = made.report["camouflage"].as_array().map_or(0, Vec::len);
     let half = (0..camouflage)
-        .filter_map(|v| made.number(&format!("/camouflage/{v}/half_deg")).ok())
+        .filter_map(|v| {
+            made.number(&format!("/camouflage/{v}/half_likeness_deg"))
+                .ok()
+        })
         .fold(0.0, f64::max);
     let groups = made.sum("/groups")?;
     let coverage = made.mean("/certificate/coverage")?;

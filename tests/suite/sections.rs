@@ -197,7 +197,7 @@ fn pages_say_what_they_show() {
     let torn = svg(&built(&text(PILLARS, "steps: Allowed()", "30")));
     assert!(torn.contains("The torn surface") && !torn.contains("one surface runs"));
     // Stairs have level treads: only an upright section cuts several.
-    let stairs = svg(&built(&text(STAIRS, "steps: Never", "150")));
+    let stairs = svg(&built(&text(STAIRS, "steps: Allowed()", "150")));
     assert!(stairs.contains("Upright section"), "{stairs}");
 }
 

@@ -62,12 +62,45 @@ fn surface(c: &CertificateReport) -> Vec<Row> {
             "How far points had to be moved along their rays to stay within the layer.".into(),
         ),
         Row(
+            "Before its support",
+            measure(c.relief_front_mm, 3, "mm"),
+            None,
+            "How far the relief comes before the surface or plane that its layer is measured from."
+                .into(),
+        ),
+        Row(
+            "Into its support",
+            measure(c.relief_back_mm, 3, "mm"),
+            None,
+            "How far it goes behind that.".into(),
+        ),
+        Row(
             "Order turned round",
             format!("{} places", count(c.order_inversions)),
             Some(c.order_inversions == 0),
             "Places where a farther part of the model comes before a nearer one.".into(),
         ),
     ];
+    if let Some(found) = c.crossings {
+        let whole = "Before it is cut, with what nobody sees:";
+        rows.extend([
+            Row(
+                "Order turned round in all of the surface",
+                format!("{} places", count(found.order_inversions)),
+                None,
+                format!("{whole} places where a farther sheet comes before a nearer one."),
+            ),
+            Row(
+                "Faces through each other",
+                format!("{} pairs", count(found.self_intersections)),
+                None,
+                format!(
+                    "{whole} pairs of faces that cross. In the model: {}.",
+                    count(found.in_model)
+                ),
+            ),
+        ]);
+    }
     rows.extend(c.proof.iter().flat_map(proof));
     rows.extend(c.not_an_optimum.map(|what| {
         Row(
