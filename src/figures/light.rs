@@ -87,7 +87,7 @@ fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         found.row(name, &made, &measured, made.keeps_promises());
         sheet(found, name, &made);
         found.claim(
-            flash > 2.0 * cloudy,
+            flash > cloudy,
             format!("{name}: shading alone is off by {flash:.0} of 255 in the flash and by {cloudy:.0} under clouds"),
         );
     }

@@ -64,19 +64,32 @@ pub const FREE: Figure = Figure {
 fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("arm and ear free", "fig12-free", &[])?;
     let inversions = made.sum("/certificate/order_inversions")?;
+    let crossings = made.sum("/certificate/crossings/self_intersections")?;
     let parts = made.number("/solid/parts")?;
     found.case(
         "arm and ear free",
         &made,
-        &[("order_inversions", inversions), ("parts", parts)],
+        &[
+            ("order_inversions", inversions),
+            ("self_intersections", crossings),
+            ("parts", parts),
+            layer(&made)?.0,
+        ],
     )?;
     found.picture(
         "from the side to the other side",
         made.path("turntable.png"),
     );
     found.claim(
-        inversions == 0.0,
-        format!("{inversions} places where sheets of the surface cross"),
+        inversions == 0.0 && crossings == 0.0,
+        format!("front, back and what is hidden keep their order: {inversions} inversions, {crossings} faces through each other"),
+    );
+    let off = made.most("/certificate/relief_front_mm")?;
+    found.claim(
+        off > 5.0,
+        format!(
+            "what is held stays within 5 mm of the plate, the free arm stands {off:.1} mm off it"
+        ),
     );
     found.claim(
         parts == 1.0 && made.keeps_promises(),

@@ -31,7 +31,7 @@ fn report(error: f64, crossings: u32) -> Value {
             "normal_error_deg": { "mean": error, "median": error, "p90": error },
             "certificate": {
                 "bound_violation_mm": 0.0, "clamp_mm": 0.0, "relief_front_mm": 1.0, "relief_back_mm": 0.5,
-                "order_inversions": crossings, "coverage": 1.0, "reaching": 1.0
+                "order_inversions": crossings, "crossings": { "self_intersections": 0 }, "coverage": 1.0, "reaching": 1.0
             },
             "program": { "objective": 2.0 },
             "iterated": { "ending": "converged", "rounds": [{ "change": 0.5 }, { "change": 1e-9 }] },
