@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""likeness.py FILE.json: fails if a view of a forest is not like its model. FILE.json is what judge.py --json wrote."""
+"""likeness.py FILE.json [MEAN MEDIAN P90]: fails if a view of a forest is not like its model. FILE.json is what judge.py --json wrote;
+errors of its normals may be as large as these degrees."""
 import json
 import sys
 
 # Share of rays that meet the forest; degrees between the normals of forest and model.
 LEAST_HIT, MOST = 0.9999, {"mean": 3.0, "median": 1.2, "p90": 5.0}
 
+if len(sys.argv) > 2:
+    MOST = dict(zip(MOST, map(float, sys.argv[2:])))
 views = json.load(open(sys.argv[1]))
 if not views:
     sys.exit("no views were judged")
