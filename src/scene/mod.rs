@@ -34,6 +34,7 @@ mod spanned;
 mod supports;
 mod template;
 mod tree;
+mod views;
 mod whole;
 
 pub use laid::{laid_out, layout_text};

@@ -1,6 +1,6 @@
 //! Supports that are no pillars: what their layers promise, found by rays at the finished solid and the bare one.
 
-use super::shapes::{Outcome, Setting, ball};
+use super::shapes::{Outcome, Setting, ball, obj};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build, Goal};
@@ -36,16 +36,6 @@ fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
         "grey.png" => Ok(ramp()),
         _ => Err(Diagnostic::error(format!("no file {name}"))),
     }
-}
-
-fn obj(mesh: &TriMesh) -> Vec<u8> {
-    let vertices = mesh
-        .vertices
-        .iter()
-        .map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
-    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
-    text.into_bytes()
 }
 
 /// An upright square of 80 mm that looks along -y, with a border.

@@ -1,18 +1,16 @@
 //! Eyes at infinity: parallel rays, layers, invariance along the view, exact copies where there is room, and what a build tells.
 
-use super::shapes::{MIDDLE, ORANGE, Outcome, ball, bumpy, pillar, view};
+use super::shapes::{
+    MIDDLE, ORANGE, Outcome, ball, boxes, bumpy, obj, pillar, solved as solved_from, view,
+};
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::{FAR_MM, ImagePlane, READING_MM};
-use pillarforest::groups::groups;
 use pillarforest::mesh::TriMesh;
-use pillarforest::mimic::{
-    CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions, depths,
-};
-use pillarforest::relief::relief;
+use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::UNSEEN_RAD;
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
@@ -51,29 +49,11 @@ fn plate() -> Support {
     scene.supports[0].clone()
 }
 
-fn obj(mesh: &TriMesh) -> Vec<u8> {
-    let vertices = mesh.vertices.iter();
-    let vertices = vertices.map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
-    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
-    text.into_bytes()
-}
-
 fn solved(view: &View, supports: &[Support], energy: Energy) -> Outcome {
     let plane = view.plane();
     let target = Target::new(view.target(), &plane).expect("in front of the eye");
-    let field = SupportField::new(supports);
-    let map = view_map(plane, &target, &field).expect("a map");
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    let depths = depths(energy, &target, &map, &groups).expect("depths");
-    let relief = relief(&map, &target, &field, &groups, &depths);
-    Outcome {
-        target,
-        map,
-        groups,
-        depths,
-        relief,
-    }
+    let map = view_map(plane, &target, &SupportField::new(supports)).expect("a map");
+    solved_from(target, map, supports, energy)
 }
 
 fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
@@ -278,7 +258,7 @@ fn where_there_is_room_the_relief_is_the_model() {
 
 /// A block of 100 mm with its face where the plate's is.
 fn deep_block() -> TriMesh {
-    super::shapes::boxes(&[(DVec3::new(-50.0, -4.0, -50.0), DVec3::new(50.0, 96.0, 90.0))])
+    boxes(&[(DVec3::new(-50.0, -4.0, -50.0), DVec3::new(50.0, 96.0, 90.0))])
 }
 
 /// A cube in two blocks, 16 mm one behind the other, seen by parallel rays.
@@ -289,7 +269,7 @@ fn blocks(more: &str) -> Scene {
          pillars: [(shape: Rectangle(width: 24, depth: 12), height: 60, places: At([(-12, -8), (12, 8)]))],\n\
          output: (picture_size: 64, surface: true, camouflage: false, lights: false){more})"
     );
-    let cube = super::shapes::boxes(&[(DVec3::ZERO, DVec3::splat(10.0))]);
+    let cube = boxes(&[(DVec3::ZERO, DVec3::splat(10.0))]);
     let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(obj(&cube)) };
     let done = scene::resolve(&text, &read).unwrap_or_else(|problems| panic!("{problems:?}"));
     assert!(done.warnings.is_empty(), "{:?}", done.warnings);

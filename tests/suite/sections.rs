@@ -1,6 +1,6 @@
 //! Sections of groups: what they cut, by numbers, and what the page says.
 
-use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball};
+use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, obj};
 use glam::DVec2;
 use pillarforest::compile::{Build, Goal, run};
 use pillarforest::diag::Diagnostic;
@@ -157,17 +157,8 @@ const STAIRS: &str =
     "supports: [Stairs(steps: 5, width: 60, rise: 8, going: 8, depth: (front: 4))]";
 
 fn built(text: &str) -> Build {
-    let read = |_: &str| -> Result<Vec<u8>, Diagnostic> {
-        let ball = ball(glam::DVec3::ZERO, 1.0, 12);
-        let mut text = String::new();
-        ball.vertices
-            .iter()
-            .for_each(|v| text += &format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
-        ball.faces
-            .iter()
-            .for_each(|f| text += &format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
-        Ok(text.into_bytes())
-    };
+    let read =
+        |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(obj(&ball(glam::DVec3::ZERO, 1.0, 12))) };
     let scene = scene::resolve(text, &read).expect("a scene").value;
     run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest")
 }

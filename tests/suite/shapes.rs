@@ -239,18 +239,32 @@ impl Setting {
     /// All stages up to the relief.
     pub fn solved(&self, energy: Energy) -> Outcome {
         let (target, map) = self.seen();
-        let field = SupportField::new(&self.supports);
-        let groups = groups("test", &map, &target, &field).expect("groups");
-        let depths = depths(energy, &target, &map, &groups).expect("depths");
-        let relief = relief(&map, &target, &field, &groups, &depths);
-        Outcome {
-            target,
-            map,
-            groups,
-            depths,
-            relief,
-        }
+        solved(target, map, &self.supports, energy)
     }
+}
+
+/// What the stages from the view map to the relief make of it.
+pub fn solved(target: Target, map: ViewMap, supports: &[Support], energy: Energy) -> Outcome {
+    let field = SupportField::new(supports);
+    let groups = groups("test", &map, &target, &field).expect("groups");
+    let depths = depths(energy, &target, &map, &groups).expect("depths");
+    let relief = relief(&map, &target, &field, &groups, &depths);
+    Outcome {
+        target,
+        map,
+        groups,
+        depths,
+        relief,
+    }
+}
+
+/// The text of an OBJ file.
+pub fn obj(mesh: &TriMesh) -> Vec<u8> {
+    let vertices = mesh.vertices.iter();
+    let vertices = vertices.map(|v| format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
+    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
+    text.into_bytes()
 }
 
 /// All that the stages up to the relief make of a setting.

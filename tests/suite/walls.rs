@@ -1,6 +1,6 @@
 //! Layers that go through walls: what is kept of them, found by rays at the bare support.
 
-use super::shapes::{Outcome, Setting, ball};
+use super::shapes::{Outcome, Setting, ball, obj};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Goal};
 use pillarforest::diag::Diagnostic;
@@ -48,16 +48,6 @@ fn vase() -> TriMesh {
         }
     }
     mesh
-}
-
-fn obj(mesh: &TriMesh) -> Vec<u8> {
-    let vertices = mesh
-        .vertices
-        .iter()
-        .map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
-    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
-    text.into_bytes()
 }
 
 /// A ball of 26 mm before the vase.

@@ -1,6 +1,6 @@
 //! Reliefs that are no height fields: closed meshes deformed as a whole.
 
-use super::shapes::ball;
+use super::shapes::{ball, obj};
 use glam::DVec3;
 use pillarforest::compile::{Build, Goal, run};
 use pillarforest::diag::Diagnostic;
@@ -21,14 +21,6 @@ fn model() -> TriMesh {
     let mut mesh = ball(DVec3::new(0.0, 0.0, 15.0), 15.0, 12);
     mesh.append(&ball(DVec3::new(9.0, -25.0, 20.0), 7.0, 8));
     mesh
-}
-
-fn obj(mesh: &TriMesh) -> Vec<u8> {
-    let vertices = mesh.vertices.iter();
-    let vertices = vertices.map(|v| format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
-    let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
-    text.into_bytes()
 }
 
 fn text(relief: &str, energy: &str, regions: &str) -> String {
