@@ -26,7 +26,7 @@ pub struct PlacedModel {
 pub struct Marks {
     /// Factor on the vertex weight `w` of paper Eq 13; positive.
     pub weights: Vec<f64>,
-    /// Whether the vertex has no depth bounds at all.
+    /// Whether the vertex has no depth bounds; in a mesh that stays whole none but the far side of its support.
     pub free: Vec<bool>,
 }
 

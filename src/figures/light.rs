@@ -42,7 +42,7 @@ fn sun_and_cloud(shop: &mut Workshop, found: &mut Findings) -> Result<(), String
             ),
         ];
         found.row(name, &made, &measured, made.keeps_promises());
-        sheet(found, name, &made);
+        sheet(found, name, &made)?;
         let suns = SUNS
             .map(rmse)
             .into_iter()
@@ -85,7 +85,7 @@ fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
             ("overcast_without_shadows_rmse", cloudy),
         ];
         found.row(name, &made, &measured, made.keeps_promises());
-        sheet(found, name, &made);
+        sheet(found, name, &made)?;
         found.claim(
             flash > cloudy,
             format!("{name}: shading alone is off by {flash:.0} of 255 in the flash and by {cloudy:.0} under clouds"),
@@ -96,9 +96,8 @@ fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
 }
 
 /// The sheet of the first view in all lights.
-fn sheet(found: &mut Findings, name: &str, made: &super::Made) {
-    let sheet = made.files.iter().find(|f| f.ends_with("-lights.png"));
-    if let Some(file) = sheet {
-        found.picture(name, made.path(file));
-    }
+fn sheet(found: &mut Findings, name: &str, made: &super::Made) -> Result<(), String> {
+    let path = made.file("sheet of lights", |f| f.ends_with("-lights.png"))?;
+    found.picture(name, path);
+    Ok(())
 }

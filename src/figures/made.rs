@@ -107,9 +107,19 @@ impl Made {
         stage.map_or(0.0, |s| s.1)
     }
 
-    /// Path of one of its files from the figures' folder.
-    pub fn path(&self, file: &str) -> String {
+    /// Path of a file from the figures' folder.
+    fn path(&self, file: &str) -> String {
         format!("{}/{file}", self.order.folder)
+    }
+
+    /// Path of the file whose name `is` the one, from the figures' folder.
+    ///
+    /// # Errors
+    /// The build wrote none.
+    pub fn file(&self, what: &str, is: impl Fn(&str) -> bool) -> Result<String, String> {
+        let file = self.files.iter().find(|f| is(f));
+        let file = file.ok_or_else(|| format!("{} writes no {what}", self.scene))?;
+        Ok(self.path(file))
     }
 
     /// The pictures of what every eye sees, from the figures' folder.

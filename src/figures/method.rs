@@ -15,13 +15,9 @@ fn groups(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("hare on pillars", "fig08-groups", &[])?;
     let groups = made.sum("/groups")?;
     found.case("hare on pillars", &made, &[("groups", groups)])?;
-    let is_section = |f: &&String| f.starts_with("groups-") && f.ends_with(".png");
-    let section = made
-        .files
-        .iter()
-        .find(is_section)
-        .ok_or("no section was drawn")?;
-    found.picture("bounds, optimum, scaled back", made.path(section));
+    let is_section = |f: &str| f.starts_with("groups-") && f.ends_with(".png");
+    let section = made.file("section of its groups", is_section)?;
+    found.picture("bounds, optimum, scaled back", section);
     let outside = made.outside_mm()?;
     found.claim(
         groups > 1.0 && outside <= 1e-6,

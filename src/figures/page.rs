@@ -79,7 +79,7 @@ fn section(done: &Done) -> String {
     for picture in &findings.pictures {
         _ = writeln!(
             html,
-            "<figure><img loading=\"lazy\" src=\"{}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>",
+            "<figure><a href=\"{0}\"><img loading=\"lazy\" src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>",
             escaped(&picture.path),
             escaped(&picture.caption)
         );

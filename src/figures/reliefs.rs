@@ -78,7 +78,7 @@ fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     )?;
     found.picture(
         "from the side to the other side",
-        made.path("turntable.png"),
+        made.file("turntable.png", |f| f == "turntable.png")?,
     );
     found.claim(
         inversions == 0.0 && crossings == 0.0,
@@ -148,8 +148,11 @@ fn forest(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
             ("half_likeness_most_deg", half),
         ],
     )?;
-    found.picture("plan", made.path("plan.png"));
-    found.picture("from elsewhere", made.path("camouflage.png"));
+    found.picture("plan", made.file("plan.png", |f| f == "plan.png")?);
+    found.picture(
+        "from elsewhere",
+        made.file("camouflage.png", |f| f == "camouflage.png")?,
+    );
     appears(found, &made)?;
     found.claim(
         0.0 < half && half < 20.0,

@@ -121,7 +121,7 @@ fn scene_sections() -> Vec<Section> {
         section("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
             field("shape", "Box(...) | Ball(...) | Painted(text)", REQUIRED, "Painted: by an attribute of the file, a PLY vertex property or red, green, blue of its colours: its values (0 to 1000) are weights, or more than 0.5 is inside if `free`"),
             field("weight", "number", "1", "factor on the weight of its vertices, 0.001 to 1000; counts squared"),
-            field("free", "true | false", "false", "its vertices have no depth bounds; a view with such vertices has no steps"),
+            field("free", "true | false", "false", "its vertices have no depth bounds (with relief: Whole they only stay inside the support's far side); a view with such vertices has no steps"),
         ]),
         section("Box(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
             field("from", "(x, y, z)", REQUIRED, "a corner"),

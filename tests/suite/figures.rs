@@ -51,8 +51,11 @@ fn made_of(order: &Order, report: Value) -> Made {
         stages: vec![("quadratic programs".into(), 0.5)],
         peak_mb: Some(123.0),
         files: [
+            "camouflage.png",
             "groups-hare.png",
+            "plan.png",
             "report.json",
+            "turntable.png",
             "views/hare-lights.png",
             "views/hare.png",
         ]
