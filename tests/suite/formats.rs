@@ -176,7 +176,7 @@ fn read_model(xml: &[u8]) -> Model {
 fn a_3mf_holds_named_coloured_objects_with_the_bits_of_their_meshes() {
     let solids = solids();
     let meta = Metadata {
-        title: "Grove & <more>".into(),
+        title: "Groves' & <more>".into(),
         application: "pillarforest 0.1".into(),
         own: vec![("vie ws\"".into(), "3 < 4".into())],
         ..Metadata::default()
@@ -192,7 +192,7 @@ fn a_3mf_holds_named_coloured_objects_with_the_bits_of_their_meshes() {
     assert_eq!(
         model.metadata,
         [
-            pair("Title", "Grove & <more>"),
+            pair("Title", "Groves' & <more>"),
             pair("Application", "pillarforest 0.1"),
             pair("pillarforest:views", "3 < 4")
         ]

@@ -410,7 +410,7 @@ fn names_are_only_names() {
     assert_self_contained(&html);
     assert!(!html.contains("<more>") && !html.contains("\"fish\""));
     assert_eq!(html.matches("</script>").count(), 1);
-    let safe = "a &quot;fish&quot; &amp; &lt;more&gt; &#39;of&#39; it&lt;/script&gt;";
+    let safe = "a &quot;fish&quot; &amp; &lt;more&gt; &apos;of&apos; it&lt;/script&gt;";
     // Title twice, failure, warning, overview, the view's head and caption, its pictures, lists, file.
     assert!(html.matches(safe).count() > 12);
     assert!(html.contains(&format!("alt=\"{safe}: the model\"")));
