@@ -166,7 +166,7 @@ fn conic(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         format!("both optima are the same to {apart:.0e} of their value"),
     );
     found.note(format!(
-        "Here the conic form takes {:.1} times as long: what the paper found holds for its solver.",
+        "Here the conic form, by an interior point, takes {:.1} times as long as the quadratic one by factorisation and working set: what the paper found holds for its solver.",
         solving(&conic) / solving(&quadratic)
     ));
     Ok(())
