@@ -189,12 +189,7 @@ fn outlines_lie_on_the_support_where_they_are_to() {
             "Plate(width: 80, height: 70, thickness: 8, at: (0, 20, 0), depth: (front: 4, back: 3, outline: {outline}))"
         ));
         let (view, field) = (&scene.views[0], SupportField::new(&scene.supports));
-        let setting = Setting {
-            eye: view.eye,
-            look_at: view.look_at,
-            model: view.target(),
-            supports: scene.supports.clone(),
-        };
+        let setting = Setting::of(&scene);
         let Outcome { map, relief, .. } = setting.solved(scene.energy);
         let slab = Slab::new(&scene.supports[0], view.eye).expect("a layer");
         let (mut ends, mut off) = (0, 0.0f64);

@@ -9,6 +9,7 @@ use pillarforest::groups::{Groups, groups};
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{Depths, Energy, depths};
 use pillarforest::relief::{Relief, relief};
+use pillarforest::scene::Scene;
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::view::{PlacedModel, View};
 use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
@@ -234,6 +235,17 @@ impl Setting {
         let target = Target::new(self.model.clone(), &plane).expect("in front of the eye");
         let map = view_map(plane, &target, &SupportField::new(&self.supports)).expect("a map");
         (target, map)
+    }
+
+    /// The first view of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let view = &scene.views[0];
+        Self {
+            eye: view.eye,
+            look_at: view.look_at,
+            model: view.target(),
+            supports: scene.supports.clone(),
+        }
     }
 
     /// All stages up to the relief.

@@ -73,14 +73,8 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
         &format!("hits: (1, 2), front: {FRONT}, core: {CORE}"),
         "Never",
     );
-    let view = &scene.views[0];
     let field = SupportField::new(&scene.supports);
-    let setting = Setting {
-        eye: view.eye,
-        look_at: view.look_at,
-        model: view.target(),
-        supports: scene.supports.clone(),
-    };
+    let setting = Setting::of(&scene);
     let Outcome { map, relief, .. } = setting.solved(scene.energy);
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
     let (mut rays, mut merged, mut deepest) = (0, 0, 0.0f64);
@@ -154,13 +148,7 @@ fn a_vase_is_carved_and_printable() {
 #[test]
 fn too_thin_walls_carry_reliefs_on_their_surface() {
     let scene = scene("hits: (1, 2), front: 2, core: 60", "Never");
-    let view = &scene.views[0];
-    let setting = Setting {
-        eye: view.eye,
-        look_at: view.look_at,
-        model: view.target(),
-        supports: scene.supports.clone(),
-    };
+    let setting = Setting::of(&scene);
     let field = SupportField::new(&scene.supports);
     let Outcome { map, relief, .. } = setting.solved(scene.energy);
     let mut deepest = f64::NEG_INFINITY;

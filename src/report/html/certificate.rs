@@ -200,11 +200,7 @@ fn room(c: &CertificateReport) -> Vec<Row> {
     let way = |what, unseen, one, how: &str| {
         Row(
             what,
-            format!(
-                "{} / {}",
-                measure_or(unseen, 1, "mm", ALWAYS),
-                measure_or(one, 1, "mm", ALWAYS)
-            ),
+            both(unseen, one, 1, "mm"),
             None,
             format!(
                 "{how} until the worst cut opens by {} (nobody sees it) / {} (still one picture).",
@@ -244,16 +240,18 @@ fn room(c: &CertificateReport) -> Vec<Row> {
     ]
 }
 
+/// How far until a cut opens unseen, and until the picture falls apart.
+fn both(unseen: Option<f64>, one: Option<f64>, digits: usize, unit: &str) -> String {
+    let measured = [unseen, one].map(|value| measure_or(value, digits, unit, ALWAYS));
+    measured.join(" / ")
+}
+
 /// The same for an eye at infinity.
 fn turns(c: &CertificateReport, unseen: &Turn, one: &Turn) -> Vec<Row> {
     let way = |what, unseen, one| {
         Row(
             what,
-            format!(
-                "{} / {}",
-                measure_or(unseen, 2, "°", ALWAYS),
-                measure_or(one, 2, "°", ALWAYS)
-            ),
+            both(unseen, one, 2, "°"),
             None,
             format!(
                 "How far the direction may turn until the worst cut opens by {:.0} (nobody sees it) / {:.0} (still one picture) \
