@@ -56,6 +56,8 @@
 
 pub mod diag;
 
+pub mod index;
+
 pub mod geom;
 
 pub mod mesh;
@@ -97,6 +99,8 @@ pub mod diagram;
 pub mod render;
 
 pub mod certify;
+
+pub mod words;
 
 pub mod report;
 

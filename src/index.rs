@@ -1,0 +1,78 @@
+//! Indices as types: a vertex cannot be passed for a face, nor a support for a view.
+//!
+//! Each is a position in some list, as `u32`. Lists stay plain `Vec`s and slices; any of these types indexes them directly.
+
+use std::ops::{Index, IndexMut};
+
+macro_rules! indices {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+        #[serde(transparent)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            /// # Panics
+            /// Above `u32::MAX`: meshes are refused long before they are so large.
+            pub fn new(position: usize) -> Self {
+                Self(u32::try_from(position).expect("fewer than 2^32 entries"))
+            }
+
+            pub const fn at(self) -> usize {
+                self.0 as usize
+            }
+
+            /// All indices of a list of this length, rising.
+            pub fn all(length: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone {
+                (0..Self::new(length).0 as usize).map(|i| Self(i as u32))
+            }
+        }
+
+        impl<T> Index<$name> for [T] {
+            type Output = T;
+
+            fn index(&self, index: $name) -> &T {
+                &self[index.at()]
+            }
+        }
+
+        impl<T> IndexMut<$name> for [T] {
+            fn index_mut(&mut self, index: $name) -> &mut T {
+                &mut self[index.at()]
+            }
+        }
+
+        impl<T> Index<$name> for Vec<T> {
+            type Output = T;
+
+            fn index(&self, index: $name) -> &T {
+                &self[index.at()]
+            }
+        }
+
+        impl<T> IndexMut<$name> for Vec<T> {
+            fn index_mut(&mut self, index: $name) -> &mut T {
+                &mut self[index.at()]
+            }
+        }
+    )*};
+}
+
+indices! {
+    /// A vertex of a mesh.
+    VertexId
+    /// A face of a mesh.
+    FaceId
+    /// A face of the mesh of all supports together, as rays meet it.
+    FacetId
+    /// A point of a view map.
+    PointId
+    /// A cell of a view map.
+    CellId
+    /// A support of the scene, the base among them.
+    SupportId
+    /// A depth group of a view.
+    GroupId
+    /// A view of the scene.
+    ViewId
+}
