@@ -58,6 +58,8 @@ pub mod diag;
 
 pub mod index;
 
+pub mod ladder;
+
 pub mod geom;
 
 pub mod mesh;
@@ -72,6 +74,8 @@ pub mod viewmap;
 
 pub mod groups;
 
+pub mod sight;
+
 pub mod contest;
 
 pub mod laplacian;
@@ -79,8 +83,6 @@ pub mod laplacian;
 pub mod mimic;
 
 pub mod steps;
-
-pub mod whole;
 
 pub mod surface;
 
@@ -99,6 +101,8 @@ pub mod diagram;
 pub mod render;
 
 pub mod certify;
+
+pub mod kinds;
 
 pub mod words;
 

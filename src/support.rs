@@ -15,22 +15,64 @@ pub enum Datum {
     Surface,
 }
 
-/// The room a relief may fill, in millimetres: square to the datum (`Plane`); or along the rays (`Surface`), on pillars at the
-/// axis's distance, on bodies at the distance of their farthest point, so that it is at most as much everywhere.
+/// From where a layer is measured, and where it ends. Millimetres square to the datum for a plane; for the others along the rays, on
+/// pillars at the axis's distance, on bodies at the distance of their farthest point, so that it is at most as much everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// Up to `back` behind a [`Datum::Plane`].
+    Plane { back: f64 },
+    /// Up to `back` behind a [`Datum::Surface`].
+    Surface { back: f64 },
+    /// From a [`Datum::Surface`] through the wall behind it, up to the layer's core before rays leave that.
+    Wall,
+}
+
+/// The room a relief may fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    pub datum: Datum,
-    /// How far in front of the datum.
+    pub extent: Extent,
+    /// How far in front of the datum, millimetres as in [`Extent`].
     pub front: f64,
-    /// How far behind it.
-    pub back: f64,
-    /// Material that must be left behind the layer.
+    /// Material that must be left behind the layer, millimetres.
     pub core: f64,
-    /// Whether it reaches through the wall behind the first hit, up to `core` before rays leave that, instead of `back` behind the
-    /// datum; only with [`Datum::Surface`].
-    pub through: bool,
     /// Whether the outline of every component of the model must lie on the datum, to [`HULL_MM`] (paper Figs 12 and 17).
     pub hull: bool,
+}
+
+impl Layer {
+    pub fn datum(&self) -> Datum {
+        match self.extent {
+            Extent::Plane { .. } => Datum::Plane,
+            Extent::Surface { .. } | Extent::Wall => Datum::Surface,
+        }
+    }
+
+    /// How far behind the datum it reaches, millimetres; of a wall, where it is too thin for a core and reliefs only stand on it.
+    pub fn back(&self) -> f64 {
+        match self.extent {
+            Extent::Plane { back } | Extent::Surface { back } => back,
+            Extent::Wall => SUNK_MM,
+        }
+    }
+
+    pub fn goes_through(&self) -> bool {
+        matches!(self.extent, Extent::Wall)
+    }
+
+    /// The same layer with lengths changed; a wall has no `back`.
+    pub fn resized(self, front: f64, back: f64, core: f64) -> Self {
+        let extent = match self.extent {
+            Extent::Plane { .. } => Extent::Plane { back },
+            Extent::Surface { .. } => Extent::Surface { back },
+            Extent::Wall => Extent::Wall,
+        };
+        Self {
+            extent,
+            front,
+            core,
+            ..self
+        }
+    }
 }
 
 /// How exactly an outline lies on its datum, millimetres: what a printer cannot show, and room enough for a solver.
@@ -120,6 +162,15 @@ impl Support {
         }
     }
 
+    /// What to call it where its own name is not enough.
+    pub fn kind_name(&self) -> &'static str {
+        match self.kind {
+            SupportKind::Pillar { .. } => "pillar",
+            SupportKind::Base { .. } => "base",
+            SupportKind::Body { .. } => "support",
+        }
+    }
+
     pub fn is_body(&self) -> bool {
         matches!(self.kind, SupportKind::Body { .. })
     }
@@ -144,14 +195,22 @@ pub struct Slab {
     towards: DVec3,
     /// Distance from the eye to the datum plane (of a shell: to the plane through its middle), millimetres.
     distance: f64,
-    /// Distance at which a shell is as thick as its layer says, millimetres.
-    measure: f64,
-    /// No part of the support is nearer to the eye than this, millimetres: here a core is as thick as its layer says.
-    nearest: f64,
     layer: Layer,
     /// How far the support reaches in front of and behind its datum plane, millimetres.
     reach: (f64, f64),
-    body: bool,
+    carrier: Carrier,
+}
+
+/// What a slab belongs to. Along rays a pillar measures at its axis.
+#[derive(Clone, Copy, Debug)]
+enum Carrier {
+    Pillar,
+    Body {
+        /// Distance at which a shell is as thick as its layer says, millimetres.
+        measure: f64,
+        /// No part of the body is nearer to the eye than this, millimetres: here a core is as thick as its layer says.
+        nearest: f64,
+    },
 }
 
 impl Slab {
@@ -169,15 +228,13 @@ impl Slab {
                     eye,
                     towards: towards.extend(0.0),
                     distance,
-                    measure: distance,
-                    nearest: distance,
                     layer,
                     reach: reach(along),
-                    body: false,
+                    carrier: Carrier::Pillar,
                 })
             }
             SupportKind::Body { face, .. } => {
-                let face = face.filter(|_| layer.datum == Datum::Plane);
+                let face = face.filter(|_| layer.datum() == Datum::Plane);
                 let (lo, hi) = support.mesh.bounds()?;
                 let middle = (lo + hi) / 2.0;
                 let (point, towards) = match face {
@@ -190,11 +247,12 @@ impl Slab {
                     eye,
                     towards,
                     distance,
-                    measure: farthest(&support.mesh, eye),
-                    nearest: eye.distance(eye.clamp(lo, hi)).max(NEAREST_EYE_MM),
                     layer,
                     reach: reach(along.map(|v| (*v - point).dot(towards))),
-                    body: true,
+                    carrier: Carrier::Body {
+                        measure: farthest(&support.mesh, eye),
+                        nearest: eye.distance(eye.clamp(lo, hi)).max(NEAREST_EYE_MM),
+                    },
                 };
                 (distance > layer.front).then_some(slab)
             }
@@ -203,22 +261,42 @@ impl Slab {
 
     /// Whether the bounds depend on where a ray meets the support.
     pub fn follows_surface(&self) -> bool {
-        self.layer.datum == Datum::Surface
+        self.layer.datum() == Datum::Surface
     }
 
     /// Whether the layer reaches through the wall behind a ray's first hit.
     pub fn goes_through(&self) -> bool {
-        self.layer.through && self.follows_surface()
+        self.layer.goes_through()
+    }
+
+    /// Distance at which a shell is as thick as its layer says, millimetres.
+    fn measure(&self) -> f64 {
+        match self.carrier {
+            Carrier::Pillar => self.distance,
+            Carrier::Body { measure, .. } => measure,
+        }
+    }
+
+    /// Distance at which a core is as thick as its layer says, millimetres.
+    fn nearest(&self) -> f64 {
+        match self.carrier {
+            Carrier::Pillar => self.distance,
+            Carrier::Body { nearest, .. } => nearest,
+        }
+    }
+
+    fn is_on_body(&self) -> bool {
+        matches!(self.carrier, Carrier::Body { .. })
     }
 
     /// Whether a wall has room for its core and something to carve before it.
     pub fn has_room(&self, first: f64, leaves: f64) -> bool {
-        self.before_core(leaves) >= first * (1.0 + SUNK_MM / self.measure)
+        self.before_core(leaves) >= first * (1.0 + SUNK_MM / self.measure())
     }
 
     /// Depth at which the core of a wall begins that the ray leaves at `leaves`.
     fn before_core(&self, leaves: f64) -> f64 {
-        leaves * (1.0 - self.layer.core / self.nearest)
+        leaves * (1.0 - self.layer.core / self.nearest())
     }
 
     /// Smallest and largest depth a relief may have on a ray that meets the support there. A shell is the
@@ -226,13 +304,13 @@ impl Slab {
     /// flat part of the surface. One that goes through walls ends `core` before rays leave them, measured at its nearest point; where
     /// they are too thin for that reliefs only stand on them.
     pub fn bounds(&self, direction: DVec3, hits: Hits) -> (f64, f64) {
-        match self.layer.datum {
+        match self.layer.datum() {
             Datum::Plane => (
                 self.plane(direction, -self.layer.front),
-                self.plane(direction, self.layer.back),
+                self.plane(direction, self.layer.back()),
             ),
             Datum::Surface => (
-                hits.first * (1.0 - self.layer.front / self.measure),
+                hits.first * (1.0 - self.layer.front / self.measure()),
                 self.back_of_shell(hits),
             ),
         }
@@ -240,28 +318,27 @@ impl Slab {
 
     /// How far a point at this depth lies behind the datum as the layer measures it, millimetres; negative in front.
     pub fn behind_datum(&self, direction: DVec3, surface: f64, depth: f64) -> f64 {
-        match self.layer.datum {
+        match self.layer.datum() {
             Datum::Plane => depth * direction.dot(self.towards) - self.distance,
-            Datum::Surface => (depth / surface - 1.0) * self.measure,
+            Datum::Surface => (depth / surface - 1.0) * self.measure(),
         }
     }
 
     fn back_of_shell(&self, hits: Hits) -> f64 {
-        let behind = |mm: f64| hits.first * (1.0 + mm / self.measure);
+        let behind = |mm: f64| hits.first * (1.0 + mm / self.measure());
         match hits.leaves {
             Some(leaves) => self.before_core(leaves),
-            None if self.goes_through() => behind(SUNK_MM),
-            None => behind(self.layer.back),
+            None => behind(self.layer.back()),
         }
     }
 
     /// Factor from the farthest depth that the layer allows on a ray to `before` millimetres before the datum.
     pub fn before_datum(&self, before: f64) -> f64 {
-        let from = match self.layer.datum {
+        let from = match self.layer.datum() {
             Datum::Plane => self.distance,
-            Datum::Surface => self.measure,
+            Datum::Surface => self.measure(),
         };
-        (from - before) / (from + self.layer.back)
+        (from - before) / (from + self.layer.back())
     }
 
     /// Material that must be left of the support, millimetres.
@@ -277,9 +354,9 @@ impl Slab {
     /// Smallest and largest depth at which an outline lies on the datum, if it is to lie there.
     pub fn on_datum(&self, direction: DVec3, hits: Hits) -> Option<(f64, f64)> {
         let (near, far) = self.bounds(direction, hits);
-        let at = |offset: f64| match self.layer.datum {
+        let at = |offset: f64| match self.layer.datum() {
             Datum::Plane => self.plane(direction, offset),
-            Datum::Surface => hits.first * (1.0 + offset / self.measure),
+            Datum::Surface => hits.first * (1.0 + offset / self.measure()),
         };
         self.layer
             .hull
@@ -288,18 +365,18 @@ impl Slab {
 
     /// Whether reliefs are carved into the support or only stand on it.
     pub fn is_carved(&self) -> bool {
-        !self.body || self.layer.back > SUNK_MM || self.goes_through()
+        !self.is_on_body() || self.layer.back() > SUNK_MM || self.goes_through()
     }
 
     /// Whether reliefs follow a body of any form: then nothing about them is flat but within a facet.
     pub fn is_shell(&self) -> bool {
-        self.body && self.follows_surface()
+        self.is_on_body() && self.follows_surface()
     }
 
     /// Depth on a ray at which a shell's reliefs end in solid material (`share` 1) or part of the way from the layer's back to there.
     pub fn shell_backing(&self, hits: Hits, share: f64) -> f64 {
         let backing = BACKING_MM.min(BACKING_SHARE * self.layer.core);
-        self.back_of_shell(hits) * (1.0 + share * backing / self.measure)
+        self.back_of_shell(hits) * (1.0 + share * backing / self.measure())
     }
 
     /// Depth on a ray of the plane `offset` millimetres behind the datum plane.
@@ -309,22 +386,22 @@ impl Slab {
 
     /// How far behind the datum plane reliefs end in solid material, millimetres: behind every depth the layer allows.
     pub fn backing(&self) -> f64 {
-        self.layer.back + BACKING_MM.min(BACKING_SHARE * self.behind())
+        self.layer.back() + BACKING_MM.min(BACKING_SHARE * self.behind())
     }
 
     /// How far behind the datum plane a relief may reach, millimetres.
     pub fn deepest(&self) -> f64 {
-        self.layer.back
+        self.layer.back()
     }
 
     /// Material left behind the layer's back, millimetres; negative if the layer reaches through the support.
     pub fn behind(&self) -> f64 {
-        self.reach.1 - self.layer.back
+        self.reach.1 - self.layer.back()
     }
 
     /// How far in front of the datum plane either the support or its layer reaches, millimetres.
     pub fn front(&self) -> f64 {
-        match self.layer.datum {
+        match self.layer.datum() {
             Datum::Plane => self.reach.0.max(self.layer.front),
             Datum::Surface => (self.reach.0 + self.layer.front).min(NEAREST * self.distance),
         }
@@ -332,7 +409,7 @@ impl Slab {
 
     /// How far behind the datum plane neither the support nor its layer reaches, millimetres.
     pub fn beyond(&self) -> f64 {
-        self.reach.1 + self.layer.back
+        self.reach.1 + self.layer.back()
     }
 
     /// How far `p` lies behind the datum plane, millimetres.

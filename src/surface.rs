@@ -11,6 +11,7 @@
 use crate::groups::Groups;
 use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs};
 use crate::mimic::Depths;
+use crate::sight::Sight;
 use crate::steps::Torn;
 use crate::view::{PlacedModel, View};
 use glam::DVec3;
@@ -51,18 +52,19 @@ pub struct Surface {
 }
 
 /// The optimised surface of a view.
-pub fn surface(view: &View, groups: &Groups, depths: &Depths) -> Surface {
-    assembled(view, groups, depths, None)
+pub fn surface(sight: &Sight, depths: &Depths) -> Surface {
+    assembled(sight, depths, None)
 }
 
 /// The same of a view whose surface was torn.
-pub fn torn_surface(view: &View, torn: &Torn) -> Surface {
-    assembled(view, &torn.groups, &torn.depths, Some(torn))
+pub fn torn_surface(torn: &Torn) -> Surface {
+    assembled(&torn.sight, &torn.depths, Some(torn))
 }
 
-fn assembled(view: &View, groups: &Groups, depths: &Depths, torn: Option<&Torn>) -> Surface {
+fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
+    let view = sight.image.view;
     let input = Input::new(view);
-    let bounds = vertex_bounds(groups, depths, depths.s.len());
+    let bounds = vertex_bounds(&sight.groups, depths, depths.s.len());
     let at = |point: DVec3, solved: Option<usize>| {
         let s = solved.map_or(1.0, |v| depths.s[v]);
         let bound = solved.and_then(|v| bounds[v]);
@@ -79,7 +81,7 @@ fn assembled(view: &View, groups: &Groups, depths: &Depths, torn: Option<&Torn>)
         (view.eye + s * (point - view.eye), reach)
     };
     let (faces, attributes, input_vertex, solved) = match torn {
-        None => input.whole(),
+        None => input.in_one_piece(),
         Some(torn) => input.torn(view, torn),
     };
     let (vertices, reach) = input_vertex
@@ -211,7 +213,7 @@ impl<'a> Input<'a> {
     }
 
     /// The input as it is.
-    fn whole(&self) -> Parts {
+    fn in_one_piece(&self) -> Parts {
         let vertices = (0..self.points.len() as u32).collect();
         (
             self.faces.clone(),
@@ -224,7 +226,7 @@ impl<'a> Input<'a> {
     /// What a torn mesh has of the input. A vertex that was several in the file takes the attributes of the one its first face
     /// had; texture points stay those of each face's own corners.
     fn torn(&self, view: &View, torn: &Torn) -> Parts {
-        let faces = &torn.target.mesh.faces;
+        let faces = &torn.sight.image.target.mesh.faces;
         let face_of = self.faces_of_target(view);
         let mut any_input = vec![None; torn.vertices.iter().max().map_or(0, |v| *v as usize + 1)];
         for (i, target) in self.target.iter().enumerate().rev() {

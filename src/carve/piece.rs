@@ -1,12 +1,13 @@
 //! One view's relief on one support, and what is carved out before it.
 
 use super::boolean::{Boolean, BooleanError};
-use super::{Repairs, ViewRelief, hollow};
-use crate::groups::surface_in;
+use super::forest::Repairs;
+use super::hollow;
 use crate::mesh::DisjointSets;
-use crate::relief::block;
+use crate::relief::{Relief, block};
+use crate::sight::Sight;
 use crate::support::Slab;
-use crate::viewmap::{SupportField, ViewMap};
+use crate::viewmap::{Image, ViewMap};
 use glam::DVec2;
 
 /// A shell is carved down to this share of the way from its layer's back to the end of its backing.
@@ -16,26 +17,40 @@ const SHEET_MM: f64 = 0.05;
 
 /// What one view makes of one support.
 pub struct Piece<'a> {
-    pub field: &'a SupportField<'a>,
-    pub support: u32,
-    pub slab: &'a Slab,
-    pub view: &'a ViewRelief<'a>,
+    image: &'a Image<'a>,
+    relief: &'a Relief,
+    support: u32,
+    pub slab: Slab,
+    /// With a relief, rising.
+    cells: Vec<u32>,
 }
 
 /// A relief as a solid, and the cells it had to give up, rising.
-pub struct Made {
+pub struct ReliefSolid {
     pub solid: Boolean,
     pub dropped: Vec<u32>,
 }
 
-impl Piece<'_> {
-    pub fn relief(
-        &self,
-        cells: &[u32],
-        lap: f64,
-        repairs: &mut Repairs,
-    ) -> Result<Made, BooleanError> {
-        let map = self.view.map;
+impl<'a> Piece<'a> {
+    /// `None` if the view has no relief there.
+    pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: u32) -> Option<Self> {
+        let cells = &sight.image.map.cells;
+        let on = |c: &u32| {
+            cells[*c as usize].support == Some(support) && relief.depth[*c as usize].is_some()
+        };
+        let cells: Vec<u32> = (0..cells.len() as u32).filter(on).collect();
+        let slab = sight.groups.slabs[support as usize].filter(|_| !cells.is_empty())?;
+        Some(Self {
+            image: &sight.image,
+            relief,
+            support,
+            slab,
+            cells,
+        })
+    }
+
+    pub fn relief(&self, lap: f64, repairs: &mut Repairs) -> Result<ReliefSolid, BooleanError> {
+        let map = &self.image.map;
         let back = |c: u32, q: DVec2| {
             if self.slab.is_shell() {
                 self.shell(c, q, 1.0)
@@ -45,22 +60,22 @@ impl Piece<'_> {
         };
         let behind = |c, k| hidden(map, c, k);
         let (mut solids, mut dropped) = (Vec::new(), Vec::new());
-        for sheet in self.sheets(cells) {
-            let made = block(map, &sheet, &self.view.relief.depth, back, behind, lap);
+        for sheet in self.sheets() {
+            let made = block(map, &sheet, &self.relief.depth, back, behind, lap);
             repairs.filled += made.filled;
             repairs.dropped_cells += made.dropped.len();
             dropped.extend(made.dropped);
             solids.push(Boolean::new(&made.mesh)?);
         }
         dropped.sort_unstable();
-        Ok(Made {
+        Ok(ReliefSolid {
             solid: Boolean::union(solids)?,
             dropped,
         })
     }
 
-    pub fn hollow(&self, cells: &[u32], bed: f64) -> Result<Boolean, BooleanError> {
-        let (map, slab) = (self.view.map, self.slab);
+    pub fn hollow(&self, bed: f64) -> Result<Boolean, BooleanError> {
+        let (map, slab, cells) = (&self.image.map, &self.slab, &self.cells);
         if slab.is_shell() {
             let floor = |c: u32, q: DVec2| self.shell(c, q, FLOOR);
             hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
@@ -71,16 +86,17 @@ impl Piece<'_> {
 
     /// Where a shell's backing ends (`share` 1), or part of the way to there.
     fn shell(&self, cell: u32, q: DVec2, share: f64) -> f64 {
-        let surface = surface_in(self.view.map, self.field, self.slab, cell as usize, q);
+        let surface = self.image.surface_in(&self.slab, cell as usize, q);
         self.slab.shell_backing(surface, share)
     }
 
     /// Cells (rising) in parts over which the surface of a shell does not jump: where one fold of it hides another it does.
-    fn sheets(&self, cells: &[u32]) -> Vec<Vec<u32>> {
+    fn sheets(&self) -> Vec<Vec<u32>> {
+        let cells = &self.cells;
         if !self.slab.is_shell() {
-            return vec![cells.to_vec()];
+            return vec![cells.clone()];
         }
-        let map = self.view.map;
+        let map = &self.image.map;
         let local = |c: &u32| cells.binary_search(c).ok();
         let mut sets = DisjointSets::new(cells.len());
         for (i, c) in cells.iter().enumerate() {

@@ -4,22 +4,19 @@
 //! affine in the image (see `groups`), so that cell corners decide for the whole cell; sides' ends decide for sides where
 //! sheets meet. Neither the program's rows nor its solution are used.
 
-use crate::groups::{Bound, Groups, anchor, layer_in, surface_in};
-use crate::mimic::{Depths, TOGETHER_MM};
+use crate::groups::anchor;
+use crate::mimic::TOGETHER_MM;
 use crate::relief::Relief;
-use crate::viewmap::{SupportField, Target, ViewMap};
-use glam::DVec3;
+use crate::sight::Sight;
+use crate::viewmap::Image;
 
 /// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
 const EQUAL_MM: f64 = 1e-6;
 
 /// How far the relief leaves its layer anywhere but at free corners, millimetres along the ray.
-pub fn bound_violation_mm(
-    map: &ViewMap,
-    field: &SupportField,
-    groups: &Groups,
-    relief: &Relief,
-) -> f64 {
+pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
+    let Sight { image, groups, .. } = sight;
+    let map = &image.map;
     let mut worst = 0.0f64;
     for (c, cell) in map.cells.iter().enumerate() {
         let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
@@ -29,7 +26,7 @@ pub fn bound_violation_mm(
         let free = relief.free.get(c).copied().unwrap_or_default();
         let corners = map.triangle(c).into_iter().zip(depths).enumerate();
         for (k, (q, z)) in corners.filter(|(k, _)| !free[*k]) {
-            let (near, far) = layer_in(map, field, &slab, c, k);
+            let (near, far) = image.layer_in(&slab, c, k);
             worst = worst.max((near - z).max(z - far) * map.plane.direction(q).length());
         }
     }
@@ -37,12 +34,9 @@ pub fn bound_violation_mm(
 }
 
 /// How far reliefs come before their datum and go behind it, millimetres as their layers measure it.
-pub fn reach_mm(
-    map: &ViewMap,
-    field: &SupportField,
-    groups: &Groups,
-    relief: &Relief,
-) -> (f64, f64) {
+pub fn reach_mm(sight: &Sight, relief: &Relief) -> (f64, f64) {
+    let Sight { image, groups, .. } = sight;
+    let map = &image.map;
     let mut reach = (0.0f64, 0.0f64);
     for (c, cell) in map.cells.iter().enumerate() {
         let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
@@ -50,7 +44,7 @@ pub fn reach_mm(
             continue;
         };
         for (q, z) in map.triangle(c).into_iter().zip(depths) {
-            let surface = surface_in(map, field, &slab, c, q);
+            let surface = image.surface_in(&slab, c, q);
             let behind = slab.behind_datum(map.plane.direction(q), surface.first, z);
             reach = (reach.0.max(-behind), reach.1.max(behind));
         }
@@ -58,20 +52,10 @@ pub fn reach_mm(
     reach
 }
 
-/// How far a mesh that stays whole leaves its bounds anywhere, hidden vertices included, millimetres along the ray.
-pub fn whole_violation_mm(target: &Target, eye: DVec3, groups: &Groups, depths: &Depths) -> f64 {
-    let outside = |bound: &Bound| {
-        let s = bound.anchor.relative_depth(&depths.s) / depths.mu[bound.group as usize];
-        let away = bound.anchor.terms();
-        let away = away.map(|(v, _)| target.mesh.vertices[v].distance(eye));
-        (bound.lower - s).max(s - bound.upper) * away.fold(0.0, f64::max)
-    };
-    groups.bounds.iter().map(outside).fold(0.0, f64::max)
-}
-
 /// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same
 /// support.
-pub fn order_inversions(map: &ViewMap, target: &Target, relief: &Relief) -> usize {
+pub fn order_inversions(image: &Image, relief: &Relief) -> usize {
+    let Image { map, target, .. } = image;
     let mut count = 0;
     for (c, cell) in map.cells.iter().enumerate() {
         for k in 0..3 {

@@ -9,7 +9,7 @@ pub mod layer;
 pub mod printability;
 pub mod tolerance;
 
-use crate::contest::Loss;
+use crate::sight::{Loss, Sight};
 use crate::groups::Groups;
 use crate::view::View;
 use crate::viewmap::{Target, ViewMap};
@@ -25,6 +25,18 @@ pub struct Seen<'a> {
     pub groups: &'a Groups,
     /// Cells lost to other views, rising.
     pub lost: &'a [Loss],
+}
+
+impl<'a> From<&'a Sight<'a>> for Seen<'a> {
+    fn from(sight: &'a Sight<'a>) -> Self {
+        Self {
+            view: sight.image.view,
+            target: &sight.image.target,
+            map: &sight.image.map,
+            groups: &sight.groups,
+            lost: &sight.lost,
+        }
+    }
 }
 
 impl<'a> Seen<'a> {

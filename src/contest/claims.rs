@@ -1,21 +1,13 @@
-//! What every view claims: patches of cells on one support, and which of them are in each other's way.
+//! What every view claims: its cells on each support, and which of them are in each other's way.
 
 use super::frustum::Frustum;
 use crate::geom::ImagePlane;
-use crate::groups::{Groups, layer_at};
 use crate::mesh::boxes::{Box3, BoxTree};
+use crate::sight::Sight;
 use crate::support::{Slab, SupportKind};
-use crate::viewmap::{SupportField, ViewMap};
+use crate::viewmap::Image;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-
-/// A view before its depths are found.
-#[derive(Clone, Copy)]
-pub struct Claim<'a> {
-    pub name: &'a str,
-    pub map: &'a ViewMap,
-    pub groups: &'a Groups,
-}
 
 /// How far from the eye a cell's relief may begin, where its sight ends, and where the relief's backing ends:
 /// millimetres along the slab's normal.
@@ -27,7 +19,7 @@ struct Reach {
 }
 
 /// All cells of one view on one support.
-pub struct Patch {
+pub struct Claim {
     pub view: u32,
     pub support: u32,
     /// Rising.
@@ -41,52 +33,48 @@ pub struct Patch {
     sight: Frustum,
 }
 
-/// Two patches of different views, by index, and their cells that are in each other's way, rising.
+/// Two claims of different views, by index, and their cells that are in each other's way, rising.
 pub struct Meeting {
-    pub patches: [usize; 2],
+    pub claims: [usize; 2],
     pub pairs: Vec<[u32; 2]>,
 }
 
-/// The patches of all claims, by view, then support.
-pub fn patches(claims: &[Claim], field: &SupportField) -> Vec<Patch> {
-    let of_view = |(v, claim): (usize, &Claim)| {
-        let mut cells = vec![Vec::new(); field.supports.len()];
-        for (c, group) in claim.groups.of_cell.iter().enumerate() {
+/// What all views claim, by view, then support.
+pub fn claims(sights: &[Sight]) -> Vec<Claim> {
+    let of_view = |(v, sight): (usize, &Sight)| {
+        let mut cells = vec![Vec::new(); sight.image.field.supports.len()];
+        for (c, group) in sight.groups.of_cell.iter().enumerate() {
             if let Some(g) = group {
-                cells[claim.groups.groups[*g as usize].support as usize].push(c as u32);
+                cells[sight.groups.groups[*g as usize].support as usize].push(c as u32);
             }
         }
         let filled = cells.into_iter().enumerate().filter(|(_, c)| !c.is_empty());
         filled
-            .filter_map(|(s, cells)| patch(claim, field, [v as u32, s as u32], cells))
+            .filter_map(|(s, cells)| claim(sight, [v as u32, s as u32], cells))
             .collect::<Vec<_>>()
     };
-    claims
+    sights
         .par_iter()
         .enumerate()
-        .map(|(v, claim)| of_view((v, claim)))
+        .map(of_view)
         .collect::<Vec<_>>()
         .into_iter()
         .flatten()
         .collect()
 }
 
-fn patch(
-    claim: &Claim,
-    field: &SupportField,
-    [view, support]: [u32; 2],
-    cells: Vec<u32>,
-) -> Option<Patch> {
-    let slab = claim.groups.slabs[support as usize]?;
-    let plane = claim.map.plane;
+fn claim(sight: &Sight, [view, support]: [u32; 2], cells: Vec<u32>) -> Option<Claim> {
+    let slab = sight.groups.slabs[support as usize]?;
+    let map = &sight.image.map;
+    let plane = map.plane;
     let reach: Vec<Reach> = cells
         .iter()
-        .map(|c| reach(claim.map, field, &slab, support, *c))
+        .map(|c| reach(&sight.image, &slab, support, *c))
         .collect();
-    let first = claim.map.triangle(cells[0] as usize)[0];
+    let first = map.triangle(cells[0] as usize)[0];
     let (lo, hi) = cells
         .iter()
-        .flat_map(|c| claim.map.triangle(*c as usize))
+        .flat_map(|c| map.triangle(*c as usize))
         .fold((first, first), |(lo, hi), q| (lo.min(q), hi.max(q)));
     let rays = [lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
     let rays = rays.map(|q| plane.direction(q));
@@ -94,7 +82,7 @@ fn patch(
     let near = reach.iter().map(|r| r.near).fold(f64::INFINITY, f64::min);
     let sight = reach.iter().map(|r| r.sight).fold(0.0, f64::max);
     let far = reach.iter().map(|r| r.far).fold(0.0, f64::max);
-    Some(Patch {
+    Some(Claim {
         view,
         support,
         cells,
@@ -108,14 +96,14 @@ fn patch(
 
 /// Exact for a flat layer. Over a surface the nearest and the farthest point of the cell count, all over the cell: corners, and
 /// upright edges of the support that the cell may hold.
-fn reach(map: &ViewMap, field: &SupportField, slab: &Slab, support: u32, cell: u32) -> Reach {
-    let from_eye = -slab.offset(map.plane.eye);
-    let flat = field.supports[support as usize]
+fn reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> Reach {
+    let from_eye = -slab.offset(image.map.plane.eye);
+    let flat = image.field.supports[support as usize]
         .layer
         .filter(|_| !slab.follows_surface());
     let (near, sight) = match flat {
         Some(layer) => (-layer.front, slab.deepest()),
-        None => surface_reach(map, field, slab, support, cell),
+        None => surface_reach(image, slab, support, cell),
     };
     Reach {
         near: (from_eye + near).max(0.0),
@@ -125,17 +113,12 @@ fn reach(map: &ViewMap, field: &SupportField, slab: &Slab, support: u32, cell: u
 }
 
 /// Offsets behind the axis plane of the nearest and the farthest point the layer over the surface allows in a cell.
-fn surface_reach(
-    map: &ViewMap,
-    field: &SupportField,
-    slab: &Slab,
-    support: u32,
-    cell: u32,
-) -> (f64, f64) {
+fn surface_reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> (f64, f64) {
+    let (field, map) = (image.field, &image.map);
     let corners = map.triangle(cell as usize);
     let mut found = (f64::INFINITY, f64::NEG_INFINITY);
     for q in corners {
-        let (near, far) = layer_at(map, field, slab, support, q);
+        let (near, far) = image.layer_at(slab, support, q);
         found.0 = found.0.min(slab.offset(map.plane.point(q, near)));
         found.1 = found.1.max(slab.offset(map.plane.point(q, far)));
     }
@@ -160,18 +143,18 @@ fn surface_reach(
 }
 
 /// All cells of different views that are in each other's way: the volume of one meets the sight lines of the other.
-pub fn meetings(claims: &[Claim], patches: &[Patch]) -> Vec<Meeting> {
-    let mut found: Vec<([usize; 2], Vec<[u32; 2]>)> = (0..patches.len())
+pub fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
+    let mut found: Vec<([usize; 2], Vec<[u32; 2]>)> = (0..claims.len())
         .into_par_iter()
-        .flat_map_iter(|a| blocked(claims, patches, a))
+        .flat_map_iter(|a| blocked(sights, claims, a))
         .collect();
     found.sort_by_key(|m| m.0);
     let mut merged: Vec<Meeting> = Vec::new();
     for (key, pairs) in found {
-        match merged.last_mut().filter(|m| m.patches == key) {
+        match merged.last_mut().filter(|m| m.claims == key) {
             Some(meeting) => meeting.pairs.extend(pairs),
             None => merged.push(Meeting {
-                patches: key,
+                claims: key,
                 pairs,
             }),
         }
@@ -183,18 +166,18 @@ pub fn meetings(claims: &[Claim], patches: &[Patch]) -> Vec<Meeting> {
     merged
 }
 
-/// What stands in the sight lines of patch `a`, patch by patch.
-fn blocked(claims: &[Claim], patches: &[Patch], a: usize) -> Vec<([usize; 2], Vec<[u32; 2]>)> {
-    let seen = &patches[a];
-    let others: Vec<usize> = (0..patches.len())
-        .filter(|b| patches[*b].view != seen.view && seen.sight.meets(&patches[*b].volume))
+/// What stands in the sight lines of claim `a`, claim by claim.
+fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec<[u32; 2]>)> {
+    let seen = &claims[a];
+    let others: Vec<usize> = (0..claims.len())
+        .filter(|b| claims[*b].view != seen.view && seen.sight.meets(&claims[*b].volume))
         .collect();
     if others.is_empty() {
         return Vec::new();
     }
-    let tree = BoxTree::new(&image_boxes(claims, seen));
+    let tree = BoxTree::new(&image_boxes(sights, seen));
     let in_way = others.into_iter().filter_map(|b| {
-        let pairs = cells_in_way(claims, seen, &tree, &patches[b]);
+        let pairs = cells_in_way(sights, seen, &tree, &claims[b]);
         let ordered = |[x, y]: [u32; 2]| if a < b { [x, y] } else { [y, x] };
         let pairs: Vec<[u32; 2]> = pairs.into_iter().map(ordered).collect();
         (!pairs.is_empty()).then_some(([a.min(b), a.max(b)], pairs))
@@ -203,8 +186,8 @@ fn blocked(claims: &[Claim], patches: &[Patch], a: usize) -> Vec<([usize; 2], Ve
 }
 
 /// The cells in the image, with the end of their sight as third coordinate.
-fn image_boxes(claims: &[Claim], patch: &Patch) -> Vec<Box3> {
-    let map = claims[patch.view as usize].map;
+fn image_boxes(sights: &[Sight], claim: &Claim) -> Vec<Box3> {
+    let map = &sights[claim.view as usize].image.map;
     let boxed = |(c, reach): (&u32, &Reach)| {
         let [p, q, r] = map.triangle(*c as usize);
         Box3 {
@@ -212,14 +195,14 @@ fn image_boxes(claims: &[Claim], patch: &Patch) -> Vec<Box3> {
             hi: p.max(q).max(r).extend(reach.sight),
         }
     };
-    patch.cells.iter().zip(&patch.reach).map(boxed).collect()
+    claim.cells.iter().zip(&claim.reach).map(boxed).collect()
 }
 
 /// Pairs of cells of `seen` and of `other` where the volume of the latter meets the sight of the former.
-fn cells_in_way(claims: &[Claim], seen: &Patch, tree: &BoxTree, other: &Patch) -> Vec<[u32; 2]> {
+fn cells_in_way(sights: &[Sight], seen: &Claim, tree: &BoxTree, other: &Claim) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for (i, b) in other.cells.iter().enumerate() {
-        let volume = other.volume_of(claims, i);
+        let volume = other.volume_of(sights, i);
         if !volume.meets(&seen.sight) {
             continue;
         }
@@ -227,7 +210,7 @@ fn cells_in_way(claims: &[Claim], seen: &Patch, tree: &BoxTree, other: &Patch) -
             continue;
         };
         tree.overlapping(&query, |j| {
-            if seen.sight_of(claims, j as usize).meets(&volume) {
+            if seen.sight_of(sights, j as usize).meets(&volume) {
                 pairs.push([seen.cells[j as usize], *b]);
             }
             true
@@ -237,7 +220,7 @@ fn cells_in_way(claims: &[Claim], seen: &Patch, tree: &BoxTree, other: &Patch) -
 }
 
 /// The part of the image a body covers, with the least distance of it as third coordinate; `None` if it lies behind the eye.
-fn shadow(seen: &Patch, body: &Frustum) -> Option<Box3> {
+fn shadow(seen: &Claim, body: &Frustum) -> Option<Box3> {
     let distance = |p: &DVec3| (*p - seen.plane.eye).dot(seen.normal);
     let (least, most) = body
         .points()
@@ -267,19 +250,19 @@ fn shadow(seen: &Patch, body: &Frustum) -> Option<Box3> {
     (most > 0.0).then_some(found)
 }
 
-impl Patch {
-    fn rays(&self, claims: &[Claim], i: usize) -> [DVec3; 3] {
-        let map = claims[self.view as usize].map;
+impl Claim {
+    fn rays(&self, sights: &[Sight], i: usize) -> [DVec3; 3] {
+        let map = &sights[self.view as usize].image.map;
         map.triangle(self.cells[i] as usize)
             .map(|q| self.plane.direction(q))
     }
 
     /// Where the relief of its cell `i` and its backing may be.
-    fn volume_of(&self, claims: &[Claim], i: usize) -> Frustum {
+    fn volume_of(&self, sights: &[Sight], i: usize) -> Frustum {
         let Reach { near, far, .. } = self.reach[i];
         Frustum::new(
             self.plane.eye,
-            &self.rays(claims, i),
+            &self.rays(sights, i),
             self.normal,
             near,
             far,
@@ -287,11 +270,11 @@ impl Patch {
     }
 
     /// The rays that must be free for its cell `i` to be seen.
-    fn sight_of(&self, claims: &[Claim], i: usize) -> Frustum {
+    fn sight_of(&self, sights: &[Sight], i: usize) -> Frustum {
         let sight = self.reach[i].sight;
         Frustum::new(
             self.plane.eye,
-            &self.rays(claims, i),
+            &self.rays(sights, i),
             self.normal,
             0.0,
             sight,

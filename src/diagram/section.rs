@@ -23,12 +23,13 @@ pub use sheet::groups_sheet;
 pub use slice::Outline;
 
 use crate::geom::ImagePlane;
-use crate::groups::{Groups, anchor, layer_in};
+use crate::groups::anchor;
 use crate::mesh::TriMesh;
 use crate::mimic::Depths;
 use crate::relief::Relief;
+use crate::sight::Sight;
 use crate::support::SupportKind;
-use crate::viewmap::{SupportField, Target, ViewMap};
+use crate::viewmap::ViewMap;
 use glam::{DVec2, DVec3};
 
 /// Lines tried in each direction. With 16 a row of the creatures' small groups is missed now and then; the time grows with them.
@@ -129,17 +130,18 @@ pub struct Section {
 
 /// Cuts a view open. `torn` says whether its surface may be; `model` is the mesh that it was before.
 pub fn section(
-    (map, target, field): (&ViewMap, &Target, &SupportField),
-    groups: &Groups,
+    sight: &Sight,
     depths: &Depths,
     relief: &Relief,
     (model, torn): (&TriMesh, bool),
 ) -> Section {
-    let cut = chosen(map, groups);
+    let Sight { image, groups, .. } = sight;
+    let (map, field) = (&image.map, image.field);
+    let cut = chosen(sight);
     let crossed = (0..map.cells.len()).filter_map(|c| Some((c, crossing(map, &cut, c)?)));
     let mut found: Vec<(Option<u32>, Stretch)> = crossed
         .filter_map(|(c, ends)| {
-            let values = Corners::new((map, target, field), groups, depths, relief, c)?;
+            let values = Corners::new(sight, depths, relief, c)?;
             Some((groups.of_cell[c], values.stretch(ends)))
         })
         .collect();
@@ -182,14 +184,14 @@ pub fn section(
 }
 
 /// The line that cuts most groups.
-fn chosen(map: &ViewMap, groups: &Groups) -> Cut {
+fn chosen(sight: &Sight) -> Cut {
     let cut = |upright: bool, offset: f64| Cut {
-        plane: map.plane,
+        plane: sight.image.map.plane,
         upright,
         offset,
     };
     let [level, upright] = [false, true].map(|upright| {
-        let (best, count) = best_line(map, groups, |offset| cut(upright, offset));
+        let (best, count) = best_line(sight, |offset| cut(upright, offset));
         (cut(upright, best), count)
     });
     if upright.1 > level.1 {
@@ -200,7 +202,8 @@ fn chosen(map: &ViewMap, groups: &Groups) -> Cut {
 }
 
 /// The best line of one direction and how many groups it cuts.
-fn best_line(map: &ViewMap, groups: &Groups, cut: impl Fn(f64) -> Cut) -> (f64, usize) {
+fn best_line(sight: &Sight, cut: impl Fn(f64) -> Cut) -> (f64, usize) {
+    let (map, groups) = (&sight.image.map, &sight.groups);
     let (along, across) = cut(0.0).axes();
     let shown: Vec<usize> = (0..map.cells.len())
         .filter(|c| groups.of_cell[*c].is_some())
@@ -231,9 +234,9 @@ fn best_line(map: &ViewMap, groups: &Groups, cut: impl Fn(f64) -> Cut) -> (f64, 
     }
     let least = LEAST_SHARE * (wide.1 - wide.0);
     let count = |k: usize| widths[k].iter().filter(|w| **w >= least).count();
-    let whole = |k: usize| widths[k].iter().sum::<f64>();
+    let total = |k: usize| widths[k].iter().sum::<f64>();
     let best = (0..LINES).max_by(|a, b| {
-        let by_width = || whole(*a).total_cmp(&whole(*b));
+        let by_width = || total(*a).total_cmp(&total(*b));
         count(*a).cmp(&count(*b)).then_with(by_width)
     });
     best.map_or((0.0, 0), |k| (line(k), count(k)))
@@ -277,19 +280,20 @@ struct Corners {
 impl Corners {
     /// `None` if the cell does not show the model.
     fn new(
-        (map, target, field): (&ViewMap, &Target, &SupportField),
-        groups: &Groups,
+        sight: &Sight,
         depths: &Depths,
         relief: &Relief,
         c: usize,
     ) -> Option<Self> {
+        let Sight { image, groups, .. } = sight;
+        let (map, target) = (&image.map, &image.target);
         let cell = &map.cells[c];
         let face = cell.face? as usize;
         let at = map.triangle(c).map(|q| anchor(target, face, q));
         let layer = || {
             let support = groups.of_cell[c].and(cell.support)?;
             let slab = groups.slabs[support as usize]?;
-            let bounds = [0, 1, 2].map(|k| layer_in(map, field, &slab, c, k));
+            let bounds = [0, 1, 2].map(|k| image.layer_in(&slab, c, k));
             Some([bounds.map(|b| b.0), bounds.map(|b| b.1), relief.depth[c]?])
         };
         Some(Self {

@@ -21,19 +21,37 @@ const LAST_RESORT: f64 = 30.0;
 /// More pairs than this are no slivers but a real overlap, which is not for mending.
 const MAX_PAIRS: usize = 20_000;
 
+/// A mended mesh.
+#[derive(Clone, Debug)]
+pub struct Mended {
+    pub mesh: TriMesh,
+    /// The first of the heights, counted from 0, that left nothing in trouble; their number where none did and faces were drawn
+    /// apart.
+    pub rung: usize,
+}
+
+impl Mended {
+    /// The heights, and drawing apart.
+    pub const RUNGS: usize = HEIGHTS_MM.len() + 1;
+}
+
 /// Rounds to f32 and mends what that broke.
-pub fn mend(mesh: &TriMesh) -> TriMesh {
+pub fn mend(mesh: &TriMesh) -> Mended {
     let mut mesh = snap_to_f32(mesh).mesh;
     let mut best: Option<(usize, TriMesh)> = None;
-    for height in HEIGHTS_MM {
-        let everywhere = height == HEIGHTS_MM[0];
+    for (rung, height) in HEIGHTS_MM.into_iter().enumerate() {
+        let everywhere = rung == 0;
         let trouble = if everywhere {
             (0..mesh.faces.len() as u32).collect()
         } else {
             trouble(&mesh)
         };
         if trouble.is_empty() {
-            return mesh;
+            // The height before this one was enough.
+            return Mended {
+                mesh,
+                rung: rung.saturating_sub(1),
+            };
         }
         if !everywhere && best.as_ref().is_none_or(|b| trouble.len() < b.0) {
             best = Some((trouble.len(), mesh.clone()));
@@ -44,7 +62,10 @@ pub fn mend(mesh: &TriMesh) -> TriMesh {
         Some((count, better)) if count < trouble(&mesh).len() => better,
         _ => mesh,
     };
-    drawn_apart(mesh)
+    Mended {
+        mesh: drawn_apart(mesh),
+        rung: HEIGHTS_MM.len(),
+    }
 }
 
 /// What dissolving left is drawn apart, if that helps everywhere.

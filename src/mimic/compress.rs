@@ -19,18 +19,28 @@
 use super::lazily::MARGIN;
 use super::program::{Program, Quadratic, Row, RowKind};
 use super::solve::{SolveError, Solved, solve};
-use super::{Depths, typical_width};
+use super::depths::{Depths, typical_width};
 use crate::groups::{Bound, Groups};
 use crate::mesh::DisjointSets;
+use crate::sight::Sight;
 use crate::viewmap::Target;
 
 /// What the result of [`compressed`] is for the model's own depths.
-pub const LINEAR: &str = "linear compression of depth, not the optimum of an energy";
+const LINEAR: &str = "linear compression of depth, not the optimum of an energy";
 /// Weight of differences along edges against distances from the middle: it spans the surface over vertices without bounds.
 /// At 1e-4 it rounds off the middle of a groove by a hundredth of the layer, at 1e-8 the program loses digits.
 const SPAN: f64 = 1e-6;
 /// Halvings of the interval of mixes: to the last digit.
 const HALVINGS: u32 = 52;
+
+/// Depths of the model itself compressed.
+///
+/// # Errors
+/// If no surface lies within all bounds.
+pub fn linear(sight: &Sight) -> Result<Depths, SolveError> {
+    let shape = vec![1.0; sight.image.target.mesh.vertices.len()];
+    compressed(&shape, sight, LINEAR)
+}
 
 /// The depths of the mix, see the module; `shape` is `Z` over the model's depth, index: vertex.
 ///
@@ -38,11 +48,10 @@ const HALVINGS: u32 = 52;
 /// If no surface lies within all bounds.
 pub fn compressed(
     shape: &[f64],
-    target: &Target,
-    groups: &Groups,
+    sight: &Sight,
     not_an_optimum: &'static str,
 ) -> Result<Depths, SolveError> {
-    let layers = Layers::new(target, groups);
+    let layers = Layers::new(&sight.image.target, &sight.groups);
     let (middle, solved) = layers.middle()?;
     let shape = layers.levelled(shape);
     let mix = |k: f64| -> Vec<f64> {
@@ -112,7 +121,7 @@ impl<'a> Layers<'a> {
         Self {
             blocks: blocks(target, groups, &slots, &used),
             supports: carriers.len(),
-            unit: typical_width(groups),
+            unit: typical_width(groups, 0.0),
             target,
             groups,
             slots,

@@ -13,7 +13,8 @@
 //! there are added and the program is solved again, until none is broken (Kelley 1960 for the `minus` side; for the `plus` side
 //! the tangents are those of the convex-concave procedure).
 
-use super::ordering::{Order, Orders};
+use super::keeping::{FirstRows, Keeping};
+use super::ordering::Order;
 use super::program::RowKind;
 use crate::groups::{Anchor, Groups};
 
@@ -22,7 +23,7 @@ const ORDER_SHARE: f64 = 0.01;
 
 /// A point of the surface and the group whose scale applies to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Side {
+pub struct OnGroup {
     pub anchor: Anchor,
     pub group: u32,
 }
@@ -31,15 +32,15 @@ pub struct Side {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
     pub kind: RowKind,
-    pub plus: Option<Side>,
-    pub minus: Option<Side>,
+    pub plus: Option<OnGroup>,
+    pub minus: Option<OnGroup>,
     pub limit: f64,
 }
 
 impl Condition {
     /// By how much depths break the condition, in log depth; negative inside.
     pub fn excess(&self, s: &[f64], mu: &[f64]) -> f64 {
-        let log = |side: Side| (side.anchor.relative_depth(s) / mu[side.group as usize]).ln();
+        let log = |side: OnGroup| (side.anchor.relative_depth(s) / mu[side.group as usize]).ln();
         self.plus.map_or(0.0, log) - self.minus.map_or(0.0, log) - self.limit
     }
 
@@ -76,39 +77,46 @@ impl Condition {
 #[derive(Clone, Debug)]
 pub struct Conditions {
     pub all: Vec<Condition>,
-    /// So many are worth a row from the start: bounds that do not follow from others, and the nearest orders; of a whole mesh, in
-    /// which few orders bind and rows between its front and its back are dear, bounds alone.
+    /// So many are worth a row from the start, as [`FirstRows`] says.
     pub rows: usize,
     /// So many are looked at before the rest is, while any of them is broken: those of `rows`, and the nearest orders.
     pub urgent: usize,
+    /// Rounds of adding rows after which what is left is clamped.
+    pub rounds: u32,
 }
 
+/// Rounds where the nearest orders have rows from the start: four were the most so far.
+const ROUNDS: u32 = 12;
+/// Rounds where all orders are added as they break.
+const ROUNDS_OF_ORDERS: u32 = 40;
+
 /// See [`Conditions`].
-pub fn all(groups: &Groups, orders: &Orders) -> Conditions {
+pub fn all(groups: &Groups, keeping: &Keeping) -> Conditions {
     let bounds = bounds(groups);
-    let conditions: Vec<Condition> = self::orders(&orders.all).collect();
+    let conditions: Vec<Condition> = orders(&keeping.orders.all).collect();
     let is_first = |c: &Condition| match c.kind {
         RowKind::Near(b) | RowKind::Far(b) => (b as usize) < groups.needed,
         RowKind::Order(_) | RowKind::Step(_) => false,
     };
     let (needed, follow): (Vec<Condition>, Vec<Condition>) = bounds.partition(is_first);
-    let (nearest, others) = conditions.split_at(orders.nearest);
+    let (nearest, others) = conditions.split_at(keeping.orders.nearest);
     let first = [&needed, nearest].concat();
-    let (rows, urgent) = match groups.whole {
-        true => (needed.len(), first.len()),
-        false => (first.len(), 0),
+    let (rows, urgent, rounds) = match keeping.first {
+        FirstRows::NearestOrders => (first.len(), 0, ROUNDS),
+        FirstRows::BoundsAlone => (needed.len(), first.len(), ROUNDS_OF_ORDERS),
     };
     Conditions {
         all: [&first, &follow, others].concat(),
         rows,
         urgent,
+        rounds,
     }
 }
 
 /// The conditions of all bounds: far and near in turn. Those without a near limit have only a far one.
 fn bounds(groups: &Groups) -> impl Iterator<Item = Condition> {
     groups.bounds.iter().enumerate().flat_map(|(i, bound)| {
-        let side = Some(Side {
+        let side = Some(OnGroup {
             anchor: bound.anchor,
             group: bound.group,
         });
@@ -133,11 +141,11 @@ fn bounds(groups: &Groups) -> impl Iterator<Item = Condition> {
 fn orders(orders: &[Order]) -> impl Iterator<Item = Condition> {
     orders.iter().enumerate().map(|(i, order)| Condition {
         kind: RowKind::Order(i as u32),
-        plus: Some(Side {
+        plus: Some(OnGroup {
             anchor: order.front,
             group: order.front_group,
         }),
-        minus: Some(Side {
+        minus: Some(OnGroup {
             anchor: order.back,
             group: order.back_group,
         }),

@@ -12,13 +12,15 @@
 //! infinity it is `focal ln z`, whose gradient is the slope there.
 
 use super::compress::compressed;
+use super::depths::{Depths, seen_solid_angles};
+use super::energy::GradientOptions;
 use super::program::{Program, Quadratic};
 use super::solve::{SolveError, solve};
-use super::{Depths, GradientOptions, seen_solid_angles};
-use crate::groups::{Groups, anchor};
+use crate::groups::anchor;
 use crate::laplacian::FaceGeometry;
 use crate::mesh::TriMesh;
-use crate::viewmap::{Target, ViewMap};
+use crate::sight::Sight;
+use crate::viewmap::{Image, Target, ViewMap};
 use glam::DVec2;
 
 const NOT_AN_OPTIMUM: &str = "compressed gradients, integrated and scaled into the layer (Weyrich et al. 2007): not an optimum within the bounds";
@@ -36,16 +38,11 @@ const REGULARISER: f64 = 1e-9;
 ///
 /// # Errors
 /// If no surface lies within all bounds.
-pub fn depths(
-    options: GradientOptions,
-    target: &Target,
-    map: &ViewMap,
-    groups: &Groups,
-) -> Result<Depths, SolveError> {
-    let field = Field::new(options.compression, target, map);
-    let change = field.integrated()?;
-    let shape: Vec<f64> = change.iter().map(|x| (x / map.plane.focal).exp()).collect();
-    compressed(&shape, target, groups, NOT_AN_OPTIMUM)
+pub fn depths(options: GradientOptions, sight: &Sight) -> Result<Depths, SolveError> {
+    let change = WantedChange::new(options.compression, &sight.image).integrated()?;
+    let focal = sight.image.map.plane.focal;
+    let shape: Vec<f64> = change.iter().map(|x| (x / focal).exp()).collect();
+    compressed(&shape, sight, NOT_AN_OPTIMUM)
 }
 
 /// `log(1 + alpha g) / alpha`.
@@ -58,10 +55,10 @@ fn attenuated(slope: f64, alpha: f64) -> f64 {
 }
 
 /// The change of `ln z` that is wanted: along the sides of faces, and across jumps.
-struct Field {
+struct WantedChange {
     vertices: usize,
     /// Sides of seen faces: `weight * (x_i - x_j - step)^2`.
-    sides: Vec<Side>,
+    sides: Vec<FaceSide>,
     jumps: Vec<Jump>,
     /// Edges of unseen faces.
     unseen: Vec<[usize; 2]>,
@@ -74,29 +71,30 @@ struct Jump {
     step: f64,
 }
 
-struct Side {
+struct FaceSide {
     ends: [usize; 2],
     weight: f64,
     step: f64,
 }
 
-impl Field {
-    fn new(alpha: f64, target: &Target, map: &ViewMap) -> Self {
-        let solid = seen_solid_angles(target, map);
+impl WantedChange {
+    fn new(alpha: f64, image: &Image) -> Self {
+        let Image { target, map, .. } = image;
+        let solid = seen_solid_angles(image);
         let (seen, unseen): (Vec<usize>, Vec<usize>) =
             (0..solid.len()).partition(|f| solid[*f] > 0.0);
-        let image = TriMesh {
+        let flat = TriMesh {
             vertices: target.image.iter().map(|q| q.extend(0.0)).collect(),
             faces: seen.iter().map(|f| target.mesh.faces[*f]).collect(),
         };
-        let geometry = FaceGeometry::new(&image);
+        let geometry = FaceGeometry::new(&flat);
         let mut sides = Vec::with_capacity(3 * seen.len());
         for (n, f) in seen.iter().enumerate() {
             let change = wanted_change(target, map.plane.focal, *f, alpha);
             let (face, q) = (target.mesh.faces[*f], target.image_of(*f));
             sides.extend((0..3).map(|k| {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                Side {
+                FaceSide {
                     ends: [face[i] as usize, face[j] as usize],
                     // The integral of a squared gradient is the sum of `cot / 2` times squared differences.
                     weight: geometry.cotangents[n][k] / 2.0,
@@ -104,7 +102,7 @@ impl Field {
                 }
             }));
         }
-        let lengths: f64 = image.faces.iter().map(|f| perimeter(target, *f)).sum();
+        let lengths: f64 = flat.faces.iter().map(|f| perimeter(target, *f)).sum();
         let edge = lengths / (3 * seen.len()).max(1) as f64;
         let edges = |f: &usize| {
             let face = target.mesh.faces[*f].map(|v| v as usize);
@@ -124,7 +122,7 @@ impl Field {
         let mut linear = vec![0.0; self.vertices];
         let total: f64 = self.sides.iter().map(|s| 4.0 * s.weight).sum();
         let mean = total / self.vertices as f64;
-        for Side {
+        for FaceSide {
             ends: [i, j],
             weight,
             step,

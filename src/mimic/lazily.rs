@@ -11,11 +11,6 @@ const BROKEN: f64 = 1e-9;
 /// Conditions are tightened by this share of a layer's width, 7 nm of 7 mm, which is above the residuals of the solver: so the
 /// result keeps them strictly.
 pub const MARGIN: f64 = 1e-6;
-/// Rounds after which what is left is clamped: four were the most so far.
-const ROUNDS: u32 = 12;
-/// The same of a whole mesh, whose orders are all added so.
-const ROUNDS_OF_WHOLE: u32 = 40;
-
 /// Relative depths of all vertices and scales of all groups.
 pub type DepthsAndScales = (Vec<f64>, Vec<f64>);
 
@@ -49,12 +44,8 @@ pub fn solve_lazily(
     let mut solution = solver.solve(program)?;
     let first = solution.solved.optimality.objective;
     let (mut rounds, before) = (0, program.rows.len());
-    let most = match conditions.urgent {
-        0 => ROUNDS,
-        _ => ROUNDS_OF_WHOLE,
-    };
     let mut urgent = conditions.urgent;
-    while rounds < most {
+    while rounds < conditions.rounds {
         let (s, mu) = (meaning.depths)(&solution.u);
         let tangents = |list: &[Condition]| -> Vec<Row> {
             let broken = list.iter().filter(|c| meaning.breaks(c, &s, &mu));

@@ -5,17 +5,17 @@
 //! `q` is the surface gradient of `1/s`, its normal part `1/(h s)`. So `E(x) = sum of a_f h_f^2 |grad_f x|^2` measures what the
 //! paper's Eq 2 asks for, as one weighted cotangent matrix. Bounds are linear in `x - m`, groups additive.
 
-use super::Method;
-use super::conditions::{Condition, Conditions, Side, log_tangent};
+use super::conditions::{self, Condition, OnGroup, log_tangent};
+use super::depths::{Depths, scales, seen_solid_angles, typical_width};
+use super::energy::{FaceWeight, NormalOptions};
+use super::keeping::{Keeping, TakingPart};
 use super::lazily::{MARGIN, Meaning, solve_lazily};
+use super::opening::{Opening, Tie};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
-use super::{
-    Depths, FaceWeight, NormalOptions, Opening, SolveError, Solved, Tie, scales, seen_solid_angles,
-    typical_width,
-};
-use crate::groups::Groups;
+use super::solve::{Method, SolveError, Solved};
 use crate::laplacian::FaceGeometry;
-use crate::viewmap::{Target, ViewMap};
+use crate::sight::Sight;
+use crate::viewmap::{Image, Target};
 
 /// A face seen as a sliver counts at least this share of its whole solid angle: below it the matrix loses digits.
 const LEAST_SEEN: f64 = 0.02;
@@ -34,22 +34,27 @@ const HIDDEN: f64 = 0.1;
 /// contradict bounds.
 const TIE: f64 = 10.0;
 
-/// Depths of the visible sub-mesh (or of the whole) under `conditions`.
+/// Depths of the faces that take part.
 pub fn depths(
     options: NormalOptions,
-    target: &Target,
-    map: &ViewMap,
-    groups: &Groups,
-    conditions: &Conditions,
+    sight: &Sight,
+    keeping: &Keeping,
     opening: Option<&Opening>,
 ) -> Result<Depths, SolveError> {
-    let seen = seen_solid_angles(target, map);
-    let taking_part: Vec<bool> = seen.iter().map(|s| groups.whole || *s > 0.0).collect();
+    let Sight { image, groups, .. } = sight;
+    let (target, map) = (&image.target, &image.map);
+    let conditions = &conditions::all(groups, keeping);
+    let seen = seen_solid_angles(image);
+    let takes_part = |seen: &f64| match keeping.faces {
+        TakingPart::Seen => *seen > 0.0,
+        TakingPart::All => true,
+    };
+    let taking_part: Vec<bool> = seen.iter().map(takes_part).collect();
     let index = Variables::new(target, &taking_part);
-    let unit = typical_width(groups);
+    let unit = typical_width(groups, keeping.least_unit);
     let scaled = opening.is_none();
     let variables = index.count + if scaled { groups.groups.len() } else { 0 };
-    let faces = Faces::new(options.weight, target, map, &seen, &taking_part, opening);
+    let faces = Faces::new(options.weight, image, &seen, &taking_part, opening);
     let tangent = |c: &Condition, s: &[f64]| {
         let harder = c.tightened(MARGIN * unit);
         index.tangent(&harder, s, unit, scaled)
@@ -182,8 +187,8 @@ impl Variables {
     fn tangent(&self, condition: &Condition, s: &[f64], unit: f64, scaled: bool) -> Option<Row> {
         let mut terms: Vec<(usize, f64)> = Vec::with_capacity(8);
         let mut limit = condition.limit;
-        let mut add = |side: Option<Side>, sign: f64| {
-            let Some(Side { anchor, group }) = side else {
+        let mut add = |side: Option<OnGroup>, sign: f64| {
+            let Some(OnGroup { anchor, group }) = side else {
                 return Some(());
             };
             let (tangent, constant) = log_tangent(&anchor, s);
@@ -221,12 +226,12 @@ struct Faces {
 impl Faces {
     fn new(
         weight: FaceWeight,
-        target: &Target,
-        map: &ViewMap,
+        image: &Image,
         seen: &[f64],
         taking_part: &[bool],
         opening: Option<&Opening>,
     ) -> Self {
+        let Image { target, map, .. } = image;
         let geometry = FaceGeometry::new(&target.mesh);
         let face = |f: usize| {
             let corners = target.mesh.corners(f);

@@ -14,6 +14,7 @@
 
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, Groups, anchor};
+use crate::sight::Sight;
 use crate::viewmap::{Target, ViewMap};
 use glam::DVec2;
 
@@ -46,11 +47,12 @@ pub struct Orders {
 
 /// Orders at all events of one view, for every support that carries both faces; and at the ends of sides of cells where sheets
 /// meet in the relief: merging thin cells has moved some of these off their faces.
-pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
+pub fn orders(sight: &Sight) -> Orders {
+    let (target, map) = (&sight.image.target, &sight.image.map);
     let finder = Finder {
         target,
         apart: APART / map.plane.focal,
-        lookup: FaceGroups::new(map, groups),
+        lookup: FaceGroups::new(map, &sight.groups),
     };
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
     for pair in overlapping(target, &seen_faces(map)) {
@@ -58,7 +60,7 @@ pub fn orders(target: &Target, map: &ViewMap, groups: &Groups) -> Orders {
         edges.extend(finder.edges_crossing(pair));
     }
     let mut found = sorted(vertices, edges);
-    found.all.extend(at_sides(target, map, groups));
+    found.all.extend(at_sides(sight));
     found
 }
 
@@ -79,7 +81,9 @@ pub(super) fn sorted(mut vertices: Vec<VertexEvent>, mut edges: Vec<(EdgePair, O
 }
 
 /// Orders at both ends of all sides at which sheets of one support meet.
-fn at_sides(target: &Target, map: &ViewMap, groups: &Groups) -> Vec<Order> {
+fn at_sides(sight: &Sight) -> Vec<Order> {
+    let Sight { image, groups, .. } = sight;
+    let (target, map) = (&image.target, &image.map);
     let mut orders = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
         for (k, n) in map.neighbours[c].iter().enumerate() {

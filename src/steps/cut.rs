@@ -1,12 +1,12 @@
 //! Cutting the target's mesh: a vertex for every bundle of corners that stay together.
 
-use super::fusion::Field;
+use super::fusion::PatchDepths;
 use super::patches::Patches;
-use super::{Prefer, StepOptions};
+use super::options::{Prefer, StepOptions};
 use crate::groups::Anchor;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::mimic::{Depths, Opening, Order, Step, Tie};
-use crate::viewmap::{Target, ViewMap};
+use crate::viewmap::{Image, Target, ViewMap};
 
 /// Force on a millimetre of tear towards the preferred depth, relative to the mean diagonal of the quadratic form: far above its
 /// regulariser, and too little to bend a surface by a thousandth of its layer.
@@ -44,7 +44,8 @@ type Corner = (u32, u8);
 
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
 /// allowed, or in the wrong order, so that the program has a solution to begin with.
-pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, least_mm: f64) -> Cut {
+pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64) -> Cut {
+    let Image { target, map, .. } = image;
     let pairs = corner_pairs(target, patches);
     let vertex = |c: Corner| vertex(target, patches, c) as usize;
     // Depths in the relief: the nearer corner decides.
@@ -86,14 +87,14 @@ pub fn cut(target: &Target, map: &ViewMap, patches: &Patches, field: &Field, lea
     }
 }
 
-impl Cut {
-    /// The lowest step at a vertex of the cut, millimetres of depth.
-    pub fn lowest_mm(&self, depths: &Depths) -> Option<f64> {
-        let z = |v: u32| self.target.depth[v as usize] * depths.s[v as usize];
-        let heights = self.steps.iter().map(|s| z(s.far) - z(s.near));
-        heights.min_by(f64::total_cmp)
-    }
+/// The lowest step at a vertex of the cut `target`, millimetres of depth.
+pub fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Option<f64> {
+    let z = |v: u32| target.depth[v as usize] * depths.s[v as usize];
+    let heights = steps.iter().map(|s| z(s.far) - z(s.near));
+    heights.min_by(f64::total_cmp)
+}
 
+impl Cut {
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
     /// Patches that are `absorbed` hardly count.
     pub fn opening(&self, patches: &Patches, options: &StepOptions, absorbed: &[bool]) -> Opening {
@@ -199,7 +200,7 @@ struct Bundles {
 }
 
 impl Bundles {
-    fn new(field: &Field) -> Self {
+    fn new(field: &PatchDepths) -> Self {
         Self {
             sets: DisjointSets::new(3 * field.len()),
             sums: field.iter().flatten().map(|y| (*y, 1.0)).collect(),

@@ -36,12 +36,12 @@ pub struct Prices {
 }
 
 /// Log relief depth over the model's at every corner of every patch.
-pub type Field = Vec<[f64; 3]>;
+pub type PatchDepths = Vec<[f64; 3]>;
 
 /// Where descents begin: the model's depths (at the corners of a patch) pressed into the layer from front to back. Continuous,
 /// within all bounds, and sheets stand apart in their order: from the layer's middle, where they would touch, neither can move
 /// alone, and the sweeps end up to a quarter higher where there are contours, at double where steps are limited.
-pub fn pressed(patches: &[Patch], depth: impl Fn(&Patch) -> [f64; 3]) -> Field {
+pub fn pressed(patches: &[Patch], depth: impl Fn(&Patch) -> [f64; 3]) -> PatchDepths {
     let all = || patches.iter().flat_map(&depth);
     let nearest = all().fold(f64::INFINITY, f64::min);
     let range = all().fold(0.0, f64::max) - nearest;
@@ -122,13 +122,13 @@ impl<'a> Functional<'a> {
     }
 
     /// Whether the patches of a seam hang together along all of it.
-    fn closed(&self, s: &Seam, field: &Field) -> bool {
+    fn closed(&self, s: &Seam, field: &PatchDepths) -> bool {
         let [a, b] = self.local(s);
         s.hangs_together() && (0..2).all(|k| s.jump(k, &field[a], &field[b]).abs() <= self.same())
     }
 
     /// The piece of every patch: those that hang together.
-    pub fn pieces(&self, field: &Field) -> Vec<u32> {
+    pub fn pieces(&self, field: &PatchDepths) -> Vec<u32> {
         let mut sets = DisjointSets::new(self.range.len());
         for s in self.seams.iter().filter(|s| self.closed(s, field)) {
             let [a, b] = self.local(s);
@@ -158,7 +158,7 @@ impl<'a> Functional<'a> {
     }
 
     /// Gives a region the level of the neighbour outside `but` that makes it cheapest, drawn in to the layer; whether it has one.
-    pub fn join_cheapest(&self, field: &mut Field, region: &[u32], but: &[bool]) -> bool {
+    pub fn join_cheapest(&self, field: &mut PatchDepths, region: &[u32], but: &[bool]) -> bool {
         let own = field[region[0] as usize];
         let mut levels: Vec<f64> = region
             .iter()
@@ -173,7 +173,7 @@ impl<'a> Functional<'a> {
         levels.sort_by(f64::total_cmp);
         levels.dedup_by(|a, b| (*a - *b).abs() <= self.same());
         let old: Vec<[f64; 3]> = region.iter().map(|i| field[*i as usize]).collect();
-        let set = |field: &mut Field, level: f64| {
+        let set = |field: &mut PatchDepths, level: f64| {
             for i in region {
                 field[*i as usize] = self.patch(*i as usize).drawn_in(level);
             }
@@ -277,7 +277,7 @@ impl<'a> Functional<'a> {
     /// that changed. `variable` is room for one number a patch, all `u32::MAX`, and is left so.
     fn fuse(
         &self,
-        field: &mut Field,
+        field: &mut PatchDepths,
         proposal: &[(u32, [f64; 3])],
         variable: &mut [u32],
     ) -> Vec<u32> {
@@ -307,7 +307,7 @@ impl<'a> Functional<'a> {
             .collect();
         let ids: Vec<u32> = changed.iter().map(|c| c.0).collect();
         let before = self.share(&ids, field);
-        let swap = |field: &mut Field, changed: &mut [(u32, [f64; 3])]| {
+        let swap = |field: &mut PatchDepths, changed: &mut [(u32, [f64; 3])]| {
             changed
                 .iter_mut()
                 .for_each(|(i, y)| std::mem::swap(&mut field[*i as usize], y));
@@ -323,7 +323,7 @@ impl<'a> Functional<'a> {
     }
 
     /// What some patches and all their seams cost.
-    fn share(&self, members: &[u32], field: &Field) -> f64 {
+    fn share(&self, members: &[u32], field: &PatchDepths) -> f64 {
         let mut seams: Vec<u32> = members
             .iter()
             .flat_map(|i| self.incident(*i as usize))
@@ -351,7 +351,7 @@ impl<'a> Functional<'a> {
         &self,
         energy: &mut BinaryEnergy,
         n: usize,
-        field: &Field,
+        field: &PatchDepths,
         members: &[(u32, [f64; 3])],
         variable: &[u32],
         v: usize,
@@ -410,7 +410,7 @@ impl<'a> Functional<'a> {
 
     /// Sweeps all levels over the field until nothing changes. A level is tried again only if something changed within its
     /// reach since it was last tried.
-    pub fn descend(&self, field: &mut Field) {
+    pub fn descend(&self, field: &mut PatchDepths) {
         let levels = self.levels();
         let mut variable = vec![u32::MAX; self.range.len()];
         // The move at which each patch last changed, and at which each level was last tried.

@@ -1,13 +1,13 @@
 //! The tear lines of a finished surface, for pictures and figures.
 
-use super::UNSEEN_RAD;
-use super::fusion::Field;
+use super::options::UNSEEN_RAD;
+use super::fusion::PatchDepths;
 use super::patches::{Patches, Seam};
 use crate::geom::parallax;
 use crate::groups::{Anchor, anchor};
 use crate::mesh::DisjointSets;
 use crate::mimic::Depths;
-use crate::viewmap::{Target, ViewMap};
+use crate::viewmap::{Image, Target};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
@@ -52,7 +52,7 @@ pub struct StepSummary {
 }
 
 /// The number of tear lines: pairs of pieces that meet in a step.
-pub fn count(target: &Target, patches: &Patches, field: &Field) -> usize {
+pub fn count(target: &Target, patches: &Patches, field: &PatchDepths) -> usize {
     let step = |s: &Seam, end: usize| {
         let [a, b] = s.patches.map(|p| &field[p as usize]);
         s.jump(end, a, b).abs() * patches.depth
@@ -96,12 +96,12 @@ fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (
 
 /// All tear lines of the solved surface, and their figures.
 pub fn lines(
-    map: &ViewMap,
-    target: &Target,
+    image: &Image,
     patches: &Patches,
     corners: &[[u32; 3]],
     depths: &Depths,
 ) -> (Vec<StepLine>, StepSummary) {
+    let Image { target, map, .. } = image;
     // Distance in the model, and relative depth.
     let place = |p: u32, q: DVec2| {
         let patch = &patches.patches[p as usize];
@@ -127,8 +127,8 @@ pub fn lines(
             length_mm: s.length_mm,
         };
         let cut = s.patches.map(|p| corners[p as usize]);
-        let whole = is_whole(target, patches, s.patches, cut);
-        if !whole && line.height_mm.iter().any(|h| *h > STEP_MM) {
+        let together = stay_together(target, patches, s.patches, cut);
+        if !together && line.height_mm.iter().any(|h| *h > STEP_MM) {
             torn[n] = true;
             lines.push(line);
         }
@@ -143,7 +143,7 @@ pub fn lines(
 }
 
 /// Whether two patches share all vertices of the cut mesh that they shared before.
-fn is_whole(target: &Target, patches: &Patches, pair: [u32; 2], cut: [[u32; 3]; 2]) -> bool {
+fn stay_together(target: &Target, patches: &Patches, pair: [u32; 2], cut: [[u32; 3]; 2]) -> bool {
     let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p as usize].face as usize]);
     let mut places = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
     places.all(|(k, l)| a[k] != b[l] || cut[0][k] == cut[1][l])

@@ -1,11 +1,12 @@
 //! The pieces a surface may fall into: patches (parts of faces seen on one group) and the seams between them.
 
-use super::{StepLimits, UNSEEN_RAD};
+use super::options::{StepLimits, UNSEEN_RAD};
 use crate::geom::ImagePlane;
-use crate::groups::{Anchor, Groups, anchor, layer_at, layer_in};
+use crate::groups::{Groups, anchor};
 use crate::laplacian::FaceGeometry;
 use crate::mimic::TOGETHER_MM;
-use crate::viewmap::{SupportField, Target, ViewMap};
+use crate::sight::Sight;
+use crate::viewmap::{Image, Target, ViewMap};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -108,24 +109,19 @@ pub struct Patches {
 }
 
 impl Patches {
-    pub fn new(
-        limits: &StepLimits,
-        target: &Target,
-        map: &ViewMap,
-        field: &SupportField,
-        groups: &Groups,
-    ) -> Self {
-        let (keys, of_cell) = numbered(map, groups);
+    pub fn new(limits: &StepLimits, sight: &Sight) -> Self {
+        let Image { target, map, .. } = &sight.image;
+        let (keys, of_cell) = numbered(map, &sight.groups);
         let depth = mean_depth(target, map);
         let scale = map.plane.scale(depth);
         let geometry = FaceGeometry::new(&target.mesh);
         let mut patches: Vec<Patch> = keys
             .iter()
-            .map(|(_, group, face)| patch(target, map, field, groups, *group, *face))
+            .map(|(_, group, face)| patch(sight, *group, *face))
             .collect();
         for (c, patch) in of_cell.iter().enumerate() {
             let Some(i) = patch else { continue };
-            add_cell(&mut patches[*i as usize], target, map, field, groups, c);
+            add_cell(&mut patches[*i as usize], sight, c);
         }
         for p in &mut patches {
             p.highest = highest(limits, target, map.plane.focal, p);
@@ -173,10 +169,10 @@ impl Patches {
 }
 
 /// Support, group and face of a patch.
-type Key = (u32, u32, u32);
+type PatchKey = (u32, u32, u32);
 
 /// The keys of all patches, rising, and the patch of every cell.
-fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<Key>, Vec<Option<u32>>) {
+fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<PatchKey>, Vec<Option<u32>>) {
     let key = |c: usize| {
         let group = groups.of_cell[c]?;
         Some((
@@ -185,7 +181,7 @@ fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<Key>, Vec<Option<u32>>) {
             map.cells[c].face?,
         ))
     };
-    let mut keys: Vec<Key> = (0..map.cells.len()).filter_map(key).collect();
+    let mut keys: Vec<PatchKey> = (0..map.cells.len()).filter_map(key).collect();
     keys.sort_unstable();
     keys.dedup();
     let find = |c| Some(keys.binary_search(&key(c)?).ok()? as u32);
@@ -205,18 +201,13 @@ fn mean_depth(target: &Target, map: &ViewMap) -> f64 {
     sum / weight
 }
 
-fn patch(
-    target: &Target,
-    map: &ViewMap,
-    field: &SupportField,
-    groups: &Groups,
-    group: u32,
-    face: u32,
-) -> Patch {
+fn patch(sight: &Sight, group: u32, face: u32) -> Patch {
+    let Sight { image, groups, .. } = sight;
+    let target = &image.target;
     let support = groups.groups[group as usize].support;
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     let room = target.mesh.faces[face as usize].map(|v| {
-        let (near, far) = layer_at(map, field, &slab, support, target.image[v as usize]);
+        let (near, far) = image.layer_at(&slab, support, target.image[v as usize]);
         let z = target.depth[v as usize];
         ((near / z).ln(), (far / z).ln())
     });
@@ -258,20 +249,15 @@ fn highest(limits: &StepLimits, target: &Target, focal: f64, p: &Patch) -> f64 {
 }
 
 /// Adds a cell's solid angle (to `seen_mm2`, scaled when all are known) and the bounds at its corners.
-fn add_cell(
-    patch: &mut Patch,
-    target: &Target,
-    map: &ViewMap,
-    field: &SupportField,
-    groups: &Groups,
-    c: usize,
-) {
+fn add_cell(patch: &mut Patch, sight: &Sight, c: usize) {
+    let Sight { image, groups, .. } = sight;
+    let map = &image.map;
     let support = groups.groups[patch.group as usize].support;
     let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
     for (k, q) in map.triangle(c).into_iter().enumerate() {
-        let (anchor, z) = anchor(target, patch.face as usize, q);
-        let (near, far) = layer_in(map, field, &slab, c, k);
+        let (anchor, z) = anchor(&image.target, patch.face as usize, q);
+        let (near, far) = image.layer_in(&slab, c, k);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
         patch.points.push(PatchPoint {

@@ -4,10 +4,10 @@
 //! lies deep. It joins the neighbour that costs least, drawn in to the layer: its normals turn, the strip is gone. In the final
 //! program it hardly counts, so that the neighbour does not bend for it.
 
-use super::fusion::{Field, Functional};
+use super::fusion::{PatchDepths, Functional};
 use super::patches::Patches;
 use crate::groups::anchor;
-use crate::viewmap::{Target, ViewMap};
+use crate::viewmap::{Image, Target, ViewMap};
 use glam::{DVec2, IVec2};
 
 /// Pixels across the narrowest printable strip: strips are told apart to a sixth of it.
@@ -21,13 +21,13 @@ const ROUNDS: usize = 3;
 
 /// Gives every strip narrower than `narrowest_mm` to a neighbour; which patches of the support were given away.
 pub fn absorb_thin(
-    target: &Target,
-    map: &ViewMap,
+    image: &Image,
     functional: &Functional,
     cells: &[u32],
-    field: &mut Field,
+    field: &mut PatchDepths,
     narrowest_mm: f64,
 ) -> Vec<bool> {
+    let Image { target, map, .. } = image;
     let mut absorbed = vec![false; field.len()];
     if narrowest_mm <= 0.0 || cells.is_empty() {
         return absorbed;

@@ -1,7 +1,8 @@
 //! The arrangement itself: a constrained Delaunay triangulation split at crossings. The only module that names `spade`.
 
 use super::outline::Segment;
-use super::{Cell, Target, ViewMap, ViewMapError, image_box};
+use super::map::{Cell, ViewMap, ViewMapError};
+use super::target::Target;
 use crate::geom::ImagePlane;
 use crate::mesh::{TriMesh, face_neighbours};
 use glam::DVec2;
@@ -23,7 +24,7 @@ pub fn arrange(
     outlines: &[Segment],
 ) -> Result<ViewMap, ViewMapError> {
     let segments = segments(target, wanted, outlines);
-    let (lo, hi) = image_box(target);
+    let (lo, hi) = target.image_box();
     let mut reason = String::new();
     for grid in GRIDS {
         let snap = Snap {

@@ -1,6 +1,6 @@
 //! The outlines of the supports as the eye sees them.
 
-use super::SupportField;
+use super::field::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
 use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;

@@ -10,11 +10,12 @@
 //! as the paper's figure has. So the turning of the seen faces, measured without any Laplacian, watches over every round, and where
 //! the rounds do not end well the best of them is kept and the ending told.
 
+use super::problem::Problem;
 use super::sheet::Sheet;
-use super::{Depths, Problem, seen_solid_angles};
+use crate::mimic::depths::{Depths, seen_solid_angles};
+use crate::mimic::iterated::{Ending, Iterated, Round};
 use crate::mesh::TriMesh;
 use glam::DVec3;
-use serde::Serialize;
 
 /// Change at which the rounds have converged, as a share of the layer's width: 7 micrometres of 7 mm, less than any printer's
 /// resolution.
@@ -22,63 +23,6 @@ const SETTLED: f64 = 1e-3;
 /// Mean turn over the best one from which a surface runs away: on the box it falls from round to round, and a surface that lost a
 /// tenth never came back.
 const RUNAWAY: f64 = 1.1;
-
-/// How an iteration went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Iterated {
-    /// Rounds allowed.
-    pub allowed: u32,
-    pub rounds: Vec<Round>,
-    pub ending: Ending,
-    /// The round whose surface is the result; 0 is the linearised problem.
-    pub kept: usize,
-    /// Mean turn of the linearised problem's seen faces, and of the result's.
-    pub linearised_deg: f64,
-    pub kept_deg: f64,
-}
-
-/// One round.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Round {
-    /// Largest change of a seen vertex's relative depth, as a share of the layer's width.
-    pub change: f64,
-    /// Mean angle between the normals of seen faces and the model's, by solid angle.
-    pub turned_deg: f64,
-}
-
-/// How it ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Ending {
-    /// The last change is below the tolerance.
-    Converged,
-    /// All rounds are used up.
-    Unfinished,
-    /// The surface ran away from the model's normals.
-    Diverged,
-    /// A round's program could not be solved, or its surface passes through the eye.
-    Failed,
-}
-
-impl Iterated {
-    /// What to warn of, if it did not converge.
-    pub fn warning(&self) -> Option<String> {
-        let how = match self.ending {
-            Ending::Converged => return None,
-            Ending::Unfinished => format!("did not settle in {} rounds", self.allowed),
-            Ending::Diverged => format!("diverged in round {}", self.rounds.len()),
-            Ending::Failed => format!("could not be solved in round {}", self.rounds.len() + 1),
-        };
-        let kept = match self.kept {
-            0 => "the linearised surface is kept".to_owned(),
-            k => format!("the surface of round {k} is kept"),
-        };
-        Some(format!(
-            "the iterated Laplacian {how}; {kept} (normals turned by {:.2} degrees on average, linearised {:.2})",
-            self.kept_deg, self.linearised_deg
-        ))
-    }
-}
 
 /// The depths after as many rounds as it takes, from the solution `first` of the linearised problem.
 pub fn iterated(problem: &Problem, first: Depths) -> Depths {
@@ -88,7 +32,7 @@ pub fn iterated(problem: &Problem, first: Depths) -> Depths {
     let (mut rounds, mut last) = (Vec::new(), first);
     let mut ending = Ending::Unfinished;
     for k in 1..=problem.options.iterate as usize {
-        let sheet = Sheet::new(&surface(problem, &last.s), problem.map.plane.eye);
+        let sheet = Sheet::new(&surface(problem, &last.s), problem.image.map.plane.eye);
         let forms = problem.model.rows_on(&sheet, &last.s);
         let next = problem.solve(&sheet, &forms, &last.s);
         let Some(next) = next.ok().filter(|d| d.s.iter().all(|s| *s > 0.0)) else {
@@ -130,8 +74,8 @@ pub fn iterated(problem: &Problem, first: Depths) -> Depths {
 
 /// The model moved along the eye's rays.
 fn surface(problem: &Problem, s: &[f64]) -> TriMesh {
-    let eye = problem.map.plane.eye;
-    let mesh = &problem.target.mesh;
+    let eye = problem.image.map.plane.eye;
+    let mesh = &problem.image.target.mesh;
     let moved = mesh
         .vertices
         .iter()
@@ -158,12 +102,12 @@ struct Turn<'a> {
 
 impl<'a> Turn<'a> {
     fn new(problem: &'a Problem) -> Self {
-        let seen = seen_solid_angles(problem.target, problem.map).into_iter();
+        let seen = seen_solid_angles(problem.image).into_iter();
         let seen = seen.enumerate().filter(|(_, seen)| *seen > 0.0);
         Self {
             problem,
             faces: seen
-                .map(|(f, seen)| (f, problem.target.mesh.normal(f), seen))
+                .map(|(f, seen)| (f, problem.image.target.mesh.normal(f), seen))
                 .collect(),
         }
     }

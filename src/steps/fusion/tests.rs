@@ -178,14 +178,14 @@ fn prices(length: f64, ordered: bool) -> Prices {
     }
 }
 
-fn start(sheet: &Sheet, patches: &Patches) -> Field {
+fn start(sheet: &Sheet, patches: &Patches) -> PatchDepths {
     pressed(&patches.patches, |p| {
         sheet.corners(p.face as usize).map(|c| c.z)
     })
 }
 
 /// All that the descent can give each patch: the start, and every level in its reach.
-fn labels(functional: &Functional, start: &Field) -> Vec<Vec<[f64; 3]>> {
+fn labels(functional: &Functional, start: &PatchDepths) -> Vec<Vec<[f64; 3]>> {
     let mut labels: Vec<Vec<[f64; 3]>> = start.iter().map(|y| vec![*y]).collect();
     for (i, y) in functional.levels().into_iter().flatten() {
         labels[i as usize].push(y);

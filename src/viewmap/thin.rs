@@ -5,12 +5,12 @@
 //! given height. Works on the triangulation only: nothing inverts, nothing overlaps, the window stays covered.
 
 use super::arrange::neighbours;
-use super::{Cell, ViewMap};
+use super::map::{Cell, ViewMap};
 use crate::geom::orient;
 use glam::DVec2;
 
 /// Gives every cell a height of at least `height` (image units) where the triangulation allows it.
-pub fn tidy(map: &mut ViewMap, height: f64) {
+pub fn merge_thin(map: &mut ViewMap, height: f64) {
     let mut work = Work::new(map, height);
     work.run();
     let (points, cells) = work.finish();

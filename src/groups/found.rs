@@ -1,0 +1,157 @@
+//! Finds the groups: connected regions of cells on one part of a support.
+
+use super::bounds::bounds;
+use super::group::{Group, Groups};
+use crate::mesh::face_components;
+use crate::support::Slab;
+use crate::viewmap::{Image, ViewMap};
+
+/// A support that a layer cuts through or leaves too thin, as one eye sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThinSupport {
+    pub support: u32,
+    /// What is left behind the layer, millimetres; negative if it reaches through.
+    pub behind_mm: f64,
+}
+
+/// Groups and bounds of a view.
+///
+/// # Errors
+/// Supports whose layer reaches through them or leaves less than their minimum core, as this eye sees them.
+pub fn groups(image: &Image) -> Result<Groups, Vec<ThinSupport>> {
+    let Image {
+        field, target, map, ..
+    } = image;
+    let supports = field.supports.iter();
+    let slabs: Vec<Option<Slab>> = supports.map(|s| Slab::new(s, map.plane.eye)).collect();
+    let component = face_components(&target.mesh);
+    let carries = |c: usize| {
+        let cell = map.cells[c];
+        let support = cell.support.filter(|s| slabs[*s as usize].is_some())?;
+        let part = cell.facet.map_or(0, |f| field.part(f));
+        Some((support, part, component[cell.face? as usize]))
+    };
+    let labels: Vec<Option<Label>> = (0..map.cells.len()).map(carries).collect();
+    let (groups, of_cell) = regions(map, &labels);
+    let groups = Groups {
+        groups,
+        of_cell,
+        bounds: Vec::new(),
+        needed: 0,
+        slabs,
+    };
+    let thin = thin_supports(image, &groups);
+    if thin.is_empty() {
+        Ok(with_bounds(groups, image))
+    } else {
+        Err(thin)
+    }
+}
+
+/// The same groups with bounds for the mesh of `image`, which may be a cut one of the same surface.
+pub fn with_bounds(groups: Groups, image: &Image) -> Groups {
+    let (bounds, needed) = bounds(image, &groups);
+    Groups {
+        bounds,
+        needed,
+        ..groups
+    }
+}
+
+/// The groups without some cells (rising), which are given up: what is left of them falls into connected regions anew.
+pub fn without(groups: &Groups, lost: &[u32], image: &Image) -> Groups {
+    let label = |c: usize| {
+        let kept = lost.binary_search(&(c as u32)).is_err();
+        let group = groups.of_cell[c].filter(|_| kept)?;
+        let group = &groups.groups[group as usize];
+        Some((group.support, group.part, group.component))
+    };
+    let labels: Vec<Option<Label>> = (0..image.map.cells.len()).map(label).collect();
+    let (found, of_cell) = regions(&image.map, &labels);
+    let left = Groups {
+        groups: found,
+        of_cell,
+        bounds: Vec::new(),
+        needed: 0,
+        slabs: groups.slabs.clone(),
+    };
+    with_bounds(left, image)
+}
+
+/// Support, part of it, component of the model.
+type Label = (u32, u32, u32);
+
+/// Flood fill over equal labels.
+fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<u32>>) {
+    let mut of_cell = vec![None; labels.len()];
+    let mut groups = Vec::new();
+    for seed in 0..labels.len() {
+        let Some((support, part, component)) = labels[seed].filter(|_| of_cell[seed].is_none())
+        else {
+            continue;
+        };
+        let id = groups.len() as u32;
+        let mut cells = Vec::new();
+        let mut stack = vec![seed as u32];
+        of_cell[seed] = Some(id);
+        while let Some(c) = stack.pop() {
+            cells.push(c);
+            for n in map.neighbours[c as usize].iter().flatten() {
+                if of_cell[*n as usize].is_none() && labels[*n as usize] == labels[seed] {
+                    of_cell[*n as usize] = Some(id);
+                    stack.push(*n);
+                }
+            }
+        }
+        cells.sort_unstable();
+        let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
+        groups.push(Group {
+            support,
+            part,
+            component,
+            cells,
+            solid_angle_sr,
+        });
+    }
+    (groups, of_cell)
+}
+
+/// Supports that are left thinner than their cores, rising.
+fn thin_supports(image: &Image, groups: &Groups) -> Vec<ThinSupport> {
+    let mut used: Vec<u32> = groups.groups.iter().map(|g| g.support).collect();
+    used.sort_unstable();
+    used.dedup();
+    let thin = |support: u32| {
+        let slab = groups.slabs[support as usize]?;
+        // Through walls a layer leaves its core by itself.
+        if !slab.is_carved() || slab.goes_through() {
+            return None;
+        }
+        let behind_mm = if slab.is_shell() {
+            let on = groups.groups.iter().filter(|g| g.support == support);
+            behind(image, &slab, support, on.flat_map(|g| &g.cells))
+        } else {
+            slab.behind()
+        };
+        (behind_mm < slab.core()).then_some(ThinSupport { support, behind_mm })
+    };
+    used.into_iter().filter_map(thin).collect()
+}
+
+/// Material left behind a shell's back where it is thinnest, millimetres along rays through the cells' centres.
+fn behind<'a>(
+    image: &Image,
+    slab: &Slab,
+    support: u32,
+    cells: impl Iterator<Item = &'a u32>,
+) -> f64 {
+    let (field, map) = (image.field, &image.map);
+    let left = |c: &u32| {
+        let q = map.points_mean(map.cells[*c as usize].corners);
+        let direction = map.plane.direction(q);
+        let surface = image.surface_in(slab, *c as usize, q);
+        let thickness = field.thickness(support, map.plane.eye, direction);
+        (surface.first + thickness - slab.bounds(direction, surface).1) * direction.length()
+    };
+    cells.map(left).fold(f64::INFINITY, f64::min)
+}

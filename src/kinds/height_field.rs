@@ -1,0 +1,91 @@
+//! Reliefs as height fields over the view map, the surface in one piece until it is cut at outlines and scaled back.
+//!
+//! - Conditions and order: the nearest orders of what is seen have rows from the start; all orders hold.
+//! - Bounds: those of the groups.
+//! - Solid: every cell's depths over its support, which is carved out before them.
+//! - Certificate: layers at all corners of all cells; order where sheets meet.
+
+use super::crossings::{Crossings, crossings, moved};
+use super::optimised::Optimised;
+use crate::carve::Operand;
+use crate::certify::layer::{bound_violation_mm, order_inversions};
+use crate::diagram::section::{Section, section};
+use crate::mimic::{Depths, Energy, Keeping, Orders, SolveError, orders};
+use crate::relief::{Relief, relief};
+use crate::sight::Sight;
+use crate::surface::{Surface, surface};
+
+/// Depths of a surface in one piece.
+///
+/// # Errors
+/// As [`depths`](crate::mimic::depths).
+pub fn depths(energy: Energy, sight: &Sight) -> Result<Depths, SolveError> {
+    let orders = if energy.ordering() {
+        orders(sight)
+    } else {
+        Orders::default()
+    };
+    crate::mimic::depths(energy, sight, &Keeping::seen(orders))
+}
+
+/// A view's surface after optimisation.
+pub struct HeightField<'a> {
+    sight: &'a Sight<'a>,
+    depths: Depths,
+    relief: Relief,
+    /// If the energy was that of the whole mesh.
+    crossings: Option<Crossings>,
+}
+
+impl<'a> HeightField<'a> {
+    /// # Errors
+    /// As [`depths`].
+    pub fn new(energy: Energy, sight: &'a Sight<'a>) -> Result<Self, SolveError> {
+        let depths = depths(energy, sight)?;
+        let crossed = || crossings(&sight.image, &moved(&sight.image, &depths), &depths);
+        Ok(Self {
+            relief: relief(sight, &depths),
+            crossings: matches!(energy, Energy::Curvature(_)).then(crossed),
+            sight,
+            depths,
+        })
+    }
+}
+
+impl Optimised for HeightField<'_> {
+    fn depths(&self) -> &Depths {
+        &self.depths
+    }
+
+    fn relief(&self) -> &Relief {
+        &self.relief
+    }
+
+    fn operand(&self) -> Operand<'_> {
+        Operand::Relief {
+            sight: self.sight,
+            relief: &self.relief,
+        }
+    }
+
+    fn bound_violation_mm(&self) -> f64 {
+        bound_violation_mm(self.sight, &self.relief)
+    }
+
+    fn order_inversions(&self) -> usize {
+        order_inversions(&self.sight.image, &self.relief) + self.depths.solved.broken
+    }
+
+    fn crossings(&self) -> Option<Crossings> {
+        self.crossings
+    }
+
+    fn surface(&self) -> Surface {
+        surface(self.sight, &self.depths)
+    }
+
+    fn section(&self) -> Section {
+        let model = &self.sight.image.target.mesh;
+        section(self.sight, &self.depths, &self.relief, (model, false))
+    }
+}

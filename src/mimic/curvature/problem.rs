@@ -1,0 +1,274 @@
+//! One program of the curvature energy, over the surface that its rows are made of.
+
+use super::sheet::{Form, Sheet};
+use crate::groups::Groups;
+use crate::mesh::DisjointSets;
+use crate::mimic::conditions::{self, Condition, Conditions, plain_tangent};
+use crate::mimic::depths::{Depths, scales, seen_solid_angles, typical_width};
+use crate::mimic::energy::{CurvatureForm, CurvatureOptions};
+use crate::mimic::keeping::Keeping;
+use crate::mimic::lazily::{MARGIN, Meaning, solve_lazily};
+use crate::mimic::program::{Program, Quadratic, Row, gathered};
+use crate::mimic::solve::{Method, SolveError, Solved};
+use crate::sight::Sight;
+use crate::viewmap::Image;
+
+/// Weight of `(mu - 1)^2` relative to the mean diagonal (the paper's alpha, about 1 instead of 0): 1e-12 to 1e-7 give the same
+/// surface.
+const ALPHA: f64 = 1e-9;
+
+/// What all programs of one view have in common.
+pub struct Problem<'a> {
+    pub options: CurvatureOptions,
+    pub image: &'a Image<'a>,
+    groups: &'a Groups,
+    conditions: Conditions,
+    /// Of all unknowns, in relative depth.
+    pub unit: f64,
+    pub visible: Vec<bool>,
+    /// The surface of the model itself.
+    pub model: Sheet,
+}
+
+impl<'a> Problem<'a> {
+    pub fn new(options: CurvatureOptions, sight: &'a Sight, keeping: &Keeping) -> Self {
+        let Sight { image, groups, .. } = sight;
+        Self {
+            options,
+            image,
+            groups,
+            conditions: conditions::all(groups, keeping),
+            unit: typical_width(groups, keeping.least_unit),
+            visible: visible_vertices(image),
+            model: Sheet::new(&image.target.mesh, image.map.plane.eye),
+        }
+    }
+
+    /// The linearised problem.
+    pub fn first(&self) -> Result<Depths, SolveError> {
+        let forms = if self.options.scale_invariant {
+            self.model.scale_invariant()
+        } else {
+            self.model.absolute()
+        };
+        let start = vec![1.0; self.image.target.mesh.vertices.len()];
+        self.solve(&self.model, &forms, &start)
+    }
+
+    pub fn is_used(&self, vertex: usize) -> bool {
+        self.model.areas[vertex] > 0.0
+    }
+
+    /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
+    pub fn solve(&self, sheet: &Sheet, forms: &[Form], start: &[f64]) -> Result<Depths, SolveError> {
+        let n = start.len();
+        let variables = n + self.groups.groups.len();
+        let mut quadratic = Quadratic::new(variables);
+        let mut linear = vec![0.0; variables];
+        self.gather(sheet, forms, &mut quadratic, &mut linear);
+        (0..self.groups.groups.len()).for_each(|g| quadratic.square(n + g, ALPHA));
+        let unused = (0..n).filter(|i| !self.is_used(*i));
+        unused.for_each(|i| quadratic.square(i, 1.0));
+        let (quadratic, factor) = quadratic.finish_with_factor();
+        let scaled = self.options.group_scales;
+        let tangent = |c: &Condition, s: &[f64]| {
+            let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
+            Some(if scaled { row } else { row.without(n) })
+        };
+        let first = self.conditions.all[..self.conditions.rows].iter();
+        let mut program = Program {
+            variables,
+            linear,
+            quadratic,
+            factor: match self.options.form {
+                CurvatureForm::Quadratic => Vec::new(),
+                CurvatureForm::Conic => factor,
+            },
+            equalities: if self.options.scale_invariant {
+                gauge(self, start)
+            } else {
+                Vec::new()
+            },
+            rows: first.filter_map(|c| tangent(c, start)).collect(),
+        };
+        let depths = |u: &[f64]| {
+            let depth = |i: usize| {
+                if self.is_used(i) {
+                    start[i] + self.unit * u[i]
+                } else {
+                    1.0
+                }
+            };
+            // The program's own scales while conditions are checked, as in `normal`.
+            let mu = (0..self.groups.groups.len()).map(|g| 1.0 + self.unit * u[n + g]);
+            ((0..n).map(depth).collect(), mu.collect())
+        };
+        let meaning = Meaning {
+            depths: &depths,
+            tangent: &tangent,
+            focal: self.image.map.plane.focal,
+        };
+        let method = match self.options.form {
+            CurvatureForm::Quadratic => Method::DualWorkingSet,
+            CurvatureForm::Conic => Method::InteriorPoint,
+        };
+        let (u, solved) = solve_lazily(&mut program, &self.conditions, &meaning, method)?;
+        let (s, _) = depths(&u);
+        let mu = match scaled {
+            true => scales(self.groups, &[], &s, |_| 1.0),
+            false => vec![1.0; self.groups.groups.len()],
+        };
+        let solved = Solved {
+            gauge: match (self.options.scale_invariant, scaled) {
+                (true, true) => "the area-weighted mean relative depth is 1",
+                (true, false) => "the bounds, which are absolute",
+                (false, _) => {
+                    "nothing: the energy knows the model's size and determines every depth"
+                }
+            },
+            ..solved
+        };
+        Ok(Depths {
+            s,
+            mu,
+            solved,
+            iterated: None,
+        })
+    }
+
+    /// The squares of all forms with their weights, scaled to a mean diagonal of 1.
+    fn gather(&self, sheet: &Sheet, forms: &[Form], quadratic: &mut Quadratic, linear: &mut [f64]) {
+        let weights = self.weights(sheet);
+        let used = || (0..forms.len()).filter(|i| self.is_used(*i));
+        // Twice the square of a form adds its squared coefficients to the diagonal.
+        let squares = |i: usize| {
+            forms[i]
+                .terms
+                .iter()
+                .map(|t| t.1.length_squared())
+                .sum::<f64>()
+        };
+        let trace: f64 = used().map(|i| 2.0 * weights[i] * squares(i)).sum();
+        let mean = trace / forms.len() as f64;
+        for i in used() {
+            let Form { terms, value } = &forms[i];
+            for axis in 0..3 {
+                let terms: Vec<(usize, f64)> = terms.iter().map(|(j, v)| (*j, v[axis])).collect();
+                quadratic.form(&terms, weights[i] / mean);
+                let slope = 2.0 * weights[i] / mean * value[axis] / self.unit;
+                terms.iter().for_each(|(j, v)| linear[*j] += slope * v);
+            }
+        }
+    }
+
+    /// Weights of the squares of all forms: `w_i^2 / A_i`, over the squared mean curvature of the model if Eq 9 is not to
+    /// cancel it.
+    fn weights(&self, sheet: &Sheet) -> Vec<f64> {
+        let flat = self.model.flat();
+        let curvatures = self.model.curvatures(flat);
+        let hidden = self.options.hidden_weight;
+        let weight = |i: usize| {
+            let seen = if self.visible[i] {
+                1.0
+            } else {
+                hidden * hidden
+            };
+            let bend = if self.options.mean_curvature {
+                // In units of the curvature that counts as flat.
+                flat / curvatures[i]
+            } else {
+                1.0
+            };
+            seen * self.image.target.weight(i as u32).powi(2) / sheet.areas[i] * bend * bend
+        };
+        (0..self.visible.len()).map(weight).collect()
+    }
+}
+
+/// Vertices of whose faces turned to the eye at least half is seen, by solid angle. A share rather than the vertex itself,
+/// which on a silhouette is seen or not by rounding alone: two such flips changed relative depths by 7e-3 on a small ball.
+fn visible_vertices(image: &Image) -> Vec<bool> {
+    let Image { target, map, .. } = image;
+    let seen = seen_solid_angles(image);
+    let mut shares = vec![(0.0, 0.0); target.mesh.vertices.len()];
+    for (f, face) in target.mesh.faces.iter().enumerate() {
+        let whole = map.plane.solid_angle_of(target.mesh.corners(f));
+        if whole > 0.0 || seen[f] > 0.0 {
+            for v in face {
+                shares[*v as usize].0 += seen[f];
+                shares[*v as usize].1 += whole.abs();
+            }
+        }
+    }
+    shares
+        .iter()
+        .map(|(seen, whole)| *whole > 0.0 && *seen >= 0.5 * whole)
+        .collect()
+}
+
+/// One equality a block: the area-weighted mean of `s` is 1. The unknowns are what `s` differs from `start`, in units. Blocks that
+/// absolute bounds hold need none.
+fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
+    let areas = &problem.model.areas;
+    let n = areas.len();
+    let mut blocks = DisjointSets::new(n + problem.groups.groups.len());
+    for face in &problem.image.target.mesh.faces {
+        blocks.join(face[0], face[1]);
+        blocks.join(face[1], face[2]);
+    }
+    for bound in &problem.groups.bounds {
+        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
+    }
+    let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
+    for [front, back] in problem.conditions.all.iter().filter_map(sides) {
+        blocks.join(front, back);
+    }
+    let held = |set: &[u32]| {
+        !problem.options.group_scales && set.last().is_some_and(|last| *last as usize >= n)
+    };
+    let block = |set: Vec<u32>| {
+        let all = set.into_iter().map(|i| i as usize);
+        let b: Vec<usize> = all.filter(|i| *i < n && areas[*i] > 0.0).collect();
+        let total: f64 = b.iter().map(|i| areas[*i]).sum();
+        let terms: Vec<_> = b.iter().map(|i| (*i, areas[*i] / total)).collect();
+        let missing: f64 = terms.iter().map(|(i, a)| a * (1.0 - start[*i])).sum();
+        (!terms.is_empty()).then_some((terms, missing / problem.unit))
+    };
+    let blocks = blocks.members().into_iter().filter(|set| !held(set));
+    blocks.filter_map(block).collect()
+}
+
+/// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
+/// groups has no row: `tau / mu` is not convex there. The unknowns are what depths differ from `start` and scales from 1, in
+/// units.
+fn row(condition: &Condition, s: &[f64], start: &[f64], unit: f64) -> Option<Row> {
+    let n = start.len();
+    let mut terms = Vec::with_capacity(7);
+    let factor = match (condition.plus, condition.minus) {
+        (Some(_), Some(_)) if condition.between_groups().is_some() => return None,
+        (Some(_), Some(_)) => (-condition.limit).exp(),
+        _ => 1.0,
+    };
+    if let Some(side) = condition.plus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, factor * g)));
+        if condition.minus.is_none() {
+            terms.push((n + side.group as usize, -condition.limit.exp()));
+        }
+    }
+    if let Some(side) = condition.minus {
+        let tangent = plain_tangent(&side.anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (*v, -g)));
+        if condition.plus.is_none() {
+            terms.push((n + side.group as usize, (-condition.limit).exp()));
+        }
+    }
+    // In s and mu all rows are homogeneous.
+    let begin = |v: usize| start.get(v).copied().unwrap_or(1.0);
+    let sum: f64 = terms.iter().map(|(v, c)| c * begin(*v)).sum();
+    Some(Row {
+        kind: condition.kind,
+        terms: gathered(terms),
+        limit: -sum / unit,
+    })
+}

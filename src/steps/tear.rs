@@ -1,0 +1,122 @@
+//! Tears a view's surface and finds its depths: price by price, until there are few enough tears.
+
+use super::cut::{cut, lowest_mm};
+use super::fusion::{Functional, PatchDepths, Prices, pressed};
+use super::lines::{self, StepLine, StepSummary, lines};
+use super::options::StepOptions;
+use super::patches::{Patch, Patches};
+use super::thin;
+use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
+use crate::sight::Sight;
+use crate::viewmap::Image;
+use rayon::prelude::*;
+
+/// Rebate along the sharpest creases: they are lines of the model already.
+const CREASE_REBATE: f64 = 0.5;
+/// How the price grows while there are more tears than wanted, and how often at most: the last is beyond any surface's worth.
+const PRICE_GROWTH: f64 = 4.0;
+const PRICE_ROUNDS: usize = 12;
+
+/// A torn surface: the view's sight on the cut mesh, with its depths.
+pub struct Torn<'a> {
+    pub sight: Sight<'a>,
+    pub depths: Depths,
+    /// The uncut target's vertex at every vertex, and its face at every face.
+    pub vertices: Vec<u32>,
+    pub faces: Vec<u32>,
+    pub lines: Vec<StepLine>,
+    pub summary: StepSummary,
+}
+
+/// Tears the surface and finds its depths.
+///
+/// # Errors
+/// As [`depths`](crate::mimic::depths).
+pub fn torn<'a>(
+    steps: &StepOptions,
+    options: NormalOptions,
+    sight: &Sight<'a>,
+) -> Result<Torn<'a>, SolveError> {
+    let image = &sight.image;
+    let patches = Patches::new(&steps.limits, sight);
+    let mut price = steps.price;
+    let mut rounds = 0;
+    loop {
+        let (y, absorbed) = tear(steps, options, price, image, &patches);
+        let last = rounds == PRICE_ROUNDS;
+        rounds += 1;
+        price *= PRICE_GROWTH;
+        let too_many = |lines: usize| !last && steps.most.is_some_and(|most| lines > most as usize);
+        if too_many(lines::count(&image.target, &patches, &y)) {
+            continue;
+        }
+        let cut = cut(image, &patches, &y, steps.limits.least_mm);
+        let opening = cut.opening(&patches, steps, &absorbed);
+        let orders = if options.ordering {
+            &cut.orders[..]
+        } else {
+            &[]
+        };
+        let torn = sight.cut(cut.target, cut.map);
+        let depths = opened_depths(options, &torn, orders, &opening);
+        if !last && matches!(depths, Err(SolveError::Infeasible(_))) {
+            // Limits that contradict each other: with fewer tears there are fewer of them.
+            continue;
+        }
+        let depths = depths?;
+        let given_away = patches.patches.iter().zip(&absorbed).filter(|(_, a)| **a);
+        let absorbed_mm2 = given_away.map(|(p, _)| p.seen_mm2).sum();
+        let (lines, summary) = lines(image, &patches, &cut.corners, &depths);
+        // Solving may open a line that the field's corners did not show.
+        if too_many(summary.lines) {
+            continue;
+        }
+        let target = &torn.image.target;
+        return Ok(Torn {
+            lines,
+            summary: StepSummary {
+                lowest_mm: lowest_mm(&opening.steps, target, &depths),
+                absorbed_mm2,
+                ..summary
+            },
+            vertices: cut.vertices,
+            faces: patches.patches.iter().map(|p| p.face).collect(),
+            sight: torn,
+            depths,
+        });
+    }
+}
+
+/// The tears at a price, support by support, and which patches were given away because they were too narrow.
+fn tear(
+    steps: &StepOptions,
+    options: NormalOptions,
+    price: f64,
+    image: &Image,
+    patches: &Patches,
+) -> (PatchDepths, Vec<bool>) {
+    let target = &image.target;
+    let prices = Prices {
+        tilt: 1f64.to_radians().powi(-2),
+        length: price,
+        height: price / 2.0,
+        crease: CREASE_REBATE,
+        ordered: options.ordering,
+    };
+    let results: Vec<(PatchDepths, Vec<bool>)> = patches
+        .by_support()
+        .into_par_iter()
+        .map(|(range, cells)| {
+            let corners = |p: &Patch| target.mesh.faces[p.face as usize];
+            let depth = |p: &Patch| corners(p).map(|v| target.depth[v as usize]);
+            let mut y = pressed(&patches.patches[range.clone()], depth);
+            let functional = Functional::new(patches, prices, range);
+            functional.descend(&mut y);
+            let narrowest = steps.narrowest_mm;
+            let absorbed = thin::absorb_thin(image, &functional, &cells, &mut y, narrowest);
+            (y, absorbed)
+        })
+        .collect();
+    let (fields, absorbed): (Vec<PatchDepths>, Vec<Vec<bool>>) = results.into_iter().unzip();
+    (fields.concat(), absorbed.concat())
+}
