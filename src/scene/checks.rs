@@ -1,11 +1,11 @@
 //! Rules that join several values: pillars that overlap, eyes in the wrong place, forests no printer can make.
 
 use super::defaults;
-use super::reader::{Reader, Span, error_at, short, warning_at};
-use super::region::{self, Room};
-use super::shapes;
 use crate::diag::Diagnostic;
-use crate::scene::Printer;
+use crate::scene::layout::region::{self, Room};
+use crate::scene::resolved::Printer;
+use crate::scene::supports::shapes;
+use crate::scene::text::reader::{Reader, Span, error_at, short, warning_at};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 

@@ -3,7 +3,7 @@
 use crate::contest::Contested;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use crate::planner::Matters;
-use crate::scene::{Output, Printer};
+use crate::scene::resolved::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 use crate::support::{Datum, Layer, SUNK_MM};
 use crate::whole::Bounded;

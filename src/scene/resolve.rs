@@ -4,18 +4,24 @@
 //! After it: lengths are millimetres, names are unique and fit for files, numbers are finite and in range, meshes are
 //! in place, pillars neither overlap nor float, eyes stand in the open.
 
+use super::carriers::{self, Around};
 use super::checks::Eye;
-use super::document::{self, Document};
-use super::forest::{self, Around};
-use super::placing::{self, Placing};
-use super::raw::{List, RawModel, RawScene};
-use super::reader::{Reader, Span, placed, printable, warning_at};
-use super::spanned::Field;
+use super::defaults;
 use super::views::{drafts, eye, view};
-use super::{defaults, detail, lexer, marks, names, options, whole};
 use crate::diag::{Diagnostic, Severity, Warned};
 use crate::mesh::{Original, TriMesh};
-use crate::scene::{Output, Scene};
+use crate::scene::language::raw::{List, RawModel, RawScene};
+use crate::scene::models::detail;
+use crate::scene::models::marks;
+use crate::scene::models::placing::{self, Placing};
+use crate::scene::options::energy as options;
+use crate::scene::options::whole;
+use crate::scene::resolved::{Output, Scene};
+use crate::scene::text::document::{self, Document};
+use crate::scene::text::lexer;
+use crate::scene::text::names;
+use crate::scene::text::reader::{Reader, Span, placed, printable, warning_at};
+use crate::scene::text::spanned::Field;
 use crate::view::Marks;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -127,7 +133,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
         views: drafts.iter().map(|d| d.name.as_str()).collect(),
         view_count: view_count(raw).unwrap_or(drafts.len()),
     };
-    let forest = forest::forest(reader, raw, &whole, &around);
+    let forest = carriers::forest(reader, raw, &whole, &around);
     let energy = options::energy(reader, &raw.energy);
     let steps = options::steps(reader, &raw.energy, forest.most_pillars(), &printer);
     let held = whole::whole(reader, raw);

@@ -1,13 +1,16 @@
 //! Views as a scene writes them: eyes, what they look at and which models they see.
 
 use super::checks::{self, Eye, Stand};
-use super::raw::{List, RawView};
-use super::reader::{Reader, Span, error_at, nearest, printable, short};
+use super::defaults;
 use super::resolve::Model;
-use super::spanned::Field;
-use super::{defaults, document, names, placing};
 use crate::geom::FAR_MM;
 use crate::planner::Adjustment;
+use crate::scene::language::raw::{List, RawView};
+use crate::scene::models::placing;
+use crate::scene::text::document;
+use crate::scene::text::names;
+use crate::scene::text::reader::{Reader, Span, error_at, nearest, printable, short};
+use crate::scene::text::spanned::Field;
 use crate::view::{PlacedModel, View};
 use glam::DVec3;
 

@@ -17,7 +17,7 @@ const OWNERS: [(&str, &[&str]); 15] = [
     ("quick_xml", &["formats/"]),
     ("gltf_json", &["formats/"]),
     ("clap", &["cli/"]),
-    ("exmex", &["scene/heights.rs"]),
+    ("exmex", &["scene/supports/heights.rs"]),
     ("rand", &["planner/"]),
     ("rand_pcg", &["planner/"]),
 ];

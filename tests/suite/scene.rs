@@ -467,7 +467,12 @@ fn bundled(name: &str, models: &Path) -> Scene {
 fn bundled_scenes_resolve_without_a_word() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/models");
     assert_eq!(bundled("scenes/minimal.ron", &models).views.len(), 1);
-    assert_eq!(bundled("src/scene/template.ron", &models).views.len(), 1);
+    assert_eq!(
+        bundled("src/scene/language/template.ron", &models)
+            .views
+            .len(),
+        1
+    );
     let four = bundled("scenes/four-creatures.ron", &models);
     assert_eq!(four.views.len(), 4);
     assert!(four.supports.len() > 25);

@@ -1,0 +1,127 @@
+//! The base: given, or fitted around what it is to hold.
+
+use super::places::{positive, positive_at};
+use super::shapes;
+use crate::scene::checks::Slab;
+use crate::scene::defaults;
+use crate::scene::language::raw::{RawBase, RawDisc, RawSlab};
+use crate::scene::text::reader::{Reader, Span, warning_at};
+use crate::scene::text::spanned::Field;
+use glam::DVec2;
+
+/// The base, by default a disc that reaches beyond everything it is to hold: corners of outlines. `loose` are what falls apart without
+/// it, if anything.
+pub fn base(
+    reader: &mut Reader,
+    field: &Field<RawBase>,
+    held: &[DVec2],
+    loose: Option<String>,
+) -> Option<Slab> {
+    match reader.given(field) {
+        None => disc(reader, &RawDisc::default(), None, held),
+        Some((RawBase::Disc(raw), span)) => disc(reader, raw, Some(span), held),
+        Some((RawBase::Rectangle(raw), span)) => rectangle(reader, raw, span, held),
+        Some((RawBase::None, span)) => {
+            let warning =
+                loose.map(|l| warning_at(&span, format!("without a base {l} are loose parts")));
+            reader.problems.extend(warning);
+            None
+        }
+    }
+}
+
+/// Whether the scene gives the base's size, so that it does not depend on what it holds.
+pub fn has_size(field: &Field<RawBase>) -> bool {
+    let given = |field: &Field<f64>| matches!(field, Field::Given(_));
+    match field {
+        Field::Given(base) => match &base.value {
+            Ok(RawBase::Disc(raw)) => given(&raw.radius),
+            Ok(RawBase::Rectangle(raw)) => given(&raw.width) && given(&raw.depth),
+            _ => false,
+        },
+        Field::Missing => false,
+    }
+}
+
+fn disc(reader: &mut Reader, raw: &RawDisc, span: Option<Span>, held: &[DVec2]) -> Option<Slab> {
+    let thickness = thickness(reader, &raw.thickness);
+    let margin = margin(reader, &raw.margin);
+    let centre = reader
+        .point_field(&raw.centre, "centre")
+        .map(|(p, _)| DVec2::from(p));
+    let centre = centre
+        .or_else(|| bounds(held).map(|(lo, hi)| (lo + hi) / 2.0))
+        .unwrap_or(DVec2::ZERO);
+    let facets = match &raw.facets {
+        Field::Missing => defaults::BASE_FACETS,
+        field => reader.count(field, "facets", defaults::FACETS)?.0,
+    };
+    let radius = match &raw.radius {
+        Field::Missing => {
+            let reach = held.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+            // The polygon's sides run inside its circle.
+            (reach + margin?) / (std::f64::consts::PI / f64::from(facets)).cos()
+        }
+        field => positive(reader, field, "radius")?,
+    };
+    let outline = shapes::regular(facets, radius, 0.0)
+        .into_iter()
+        .map(|p| p + centre)
+        .collect();
+    Some(Slab {
+        outline,
+        thickness: thickness?,
+        span,
+    })
+}
+
+fn rectangle(reader: &mut Reader, raw: &RawSlab, span: Span, held: &[DVec2]) -> Option<Slab> {
+    let thickness = thickness(reader, &raw.thickness);
+    let margin = margin(reader, &raw.margin);
+    let (lo, hi) = bounds(held).unwrap_or((DVec2::ZERO, DVec2::ZERO));
+    let centre = reader
+        .point_field(&raw.centre, "centre")
+        .map_or((lo + hi) / 2.0, |(p, _)| p.into());
+    let reach = (hi - centre).max(centre - lo);
+    let mut side = |field: &Field<f64>, name: &str, half: f64| match field {
+        Field::Missing => margin.map(|m| 2.0 * (half + m)),
+        field => positive_at(reader, field, name).map(|(v, _)| v),
+    };
+    let (width, depth) = (
+        side(&raw.width, "width", reach.x),
+        side(&raw.depth, "depth", reach.y),
+    );
+    let outline = shapes::rectangle(width?, depth?, 0.0)
+        .into_iter()
+        .map(|p| p + centre)
+        .collect();
+    Some(Slab {
+        outline,
+        thickness: thickness?,
+        span: Some(span),
+    })
+}
+
+fn thickness(reader: &mut Reader, field: &Field<f64>) -> Option<f64> {
+    match field {
+        Field::Missing => Some(defaults::BASE_THICKNESS),
+        field => reader.length_from(field, "thickness", 0.2).map(|(v, _)| v),
+    }
+}
+
+fn margin(reader: &mut Reader, field: &Field<f64>) -> Option<f64> {
+    match field {
+        Field::Missing => Some(defaults::BASE_MARGIN),
+        field => reader.length_from(field, "margin", 0.0).map(|(v, _)| v),
+    }
+}
+
+/// Lowest and highest corner of a box around the points.
+pub fn bounds(points: &[DVec2]) -> Option<(DVec2, DVec2)> {
+    let first = *points.first()?;
+    Some(
+        points
+            .iter()
+            .fold((first, first), |(l, h), p| (l.min(*p), h.max(*p))),
+    )
+}

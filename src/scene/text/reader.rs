@@ -1,0 +1,305 @@
+//! From raw values to checked ones.
+//!
+//! A [`Reader`] collects every problem of one scene; asking it for a value either gives it or notes why not.
+
+use super::explain::explain;
+use super::spanned::{Field, Spanned};
+use crate::diag::{Diagnostic, Place};
+use crate::scene::defaults;
+use crate::scene::language::raw::Wanted;
+use std::ops::Range;
+
+/// Byte range of the scene's text.
+pub type Span = Range<usize>;
+
+/// Collects the problems of one text.
+pub struct Reader<'a> {
+    pub text: &'a str,
+    /// What the text is: a "scene" or a "layout".
+    pub what: &'static str,
+    pub problems: Vec<Diagnostic>,
+    /// Millimetres per unit of the scene.
+    pub unit: f64,
+    pub unit_name: &'static str,
+}
+
+/// An error at a place of the scene.
+pub fn error_at(span: &Span, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(message).at(Place::Scene(span.clone()))
+}
+
+/// A warning at a place of the scene.
+pub fn warning_at(span: &Span, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::warning(message).at(Place::Scene(span.clone()))
+}
+
+/// A problem that points at `span` unless it knows a better place.
+pub fn placed(mut problem: Diagnostic, span: &Span) -> Diagnostic {
+    problem.place.get_or_insert(Place::Scene(span.clone()));
+    problem
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(text: &'a str, what: &'static str) -> Self {
+        Self {
+            text,
+            what,
+            problems: Vec::new(),
+            unit: 1.0,
+            unit_name: "mm",
+        }
+    }
+
+    /// Where a value stands.
+    pub fn span<T>(&self, spanned: &Spanned<T>) -> Span {
+        let start = spanned
+            .address
+            .saturating_sub(self.text.as_ptr() as usize)
+            .min(self.text.len());
+        start..(start + spanned.length).min(self.text.len())
+    }
+
+    /// What became of a file that the scene names at `span`.
+    pub fn read<T>(&mut self, done: Result<T, Diagnostic>, span: &Span) -> Option<T> {
+        done.map_err(|problem| self.problems.push(placed(problem, span)))
+            .ok()
+    }
+
+    pub fn error(&mut self, span: &Span, message: impl Into<String>) {
+        self.problems.push(error_at(span, message));
+    }
+
+    /// The value if it could be read; otherwise its problem is noted.
+    pub fn value<'v, T: Wanted>(&mut self, spanned: &'v Spanned<T>) -> Option<&'v T> {
+        match &spanned.value {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let span = self.span(spanned);
+                let found = explain(self.text, self.what, &span, error, T::WANTED);
+                self.problems.extend(found);
+                None
+            }
+        }
+    }
+
+    /// The value and place of a field if it is there and right.
+    pub fn given<'v, T: Wanted>(&mut self, field: &'v Field<T>) -> Option<(&'v T, Span)> {
+        match field {
+            Field::Missing => None,
+            Field::Given(spanned) => {
+                let span = self.span(spanned);
+                self.value(spanned).map(|value| (value, span))
+            }
+        }
+    }
+
+    /// As `given`, but a missing field is an error of `owner` ("view \"front\""), which stands at `place`.
+    pub fn required<'v, T: Wanted>(
+        &mut self,
+        field: &'v Field<T>,
+        name: &str,
+        owner: &str,
+        place: &Span,
+    ) -> Option<(&'v T, Span)> {
+        self.need(field, name, owner, place);
+        self.given(field)
+    }
+
+    /// Notes an error if the field is missing.
+    pub fn need<T: Wanted>(&mut self, field: &Field<T>, name: &str, owner: &str, place: &Span) {
+        if matches!(field, Field::Missing) {
+            let head = head_of(self.text, place);
+            self.problems.push(
+                error_at(&head, format!("{owner} has no `{name}`"))
+                    .label(format!("`{name}` is missing here"))
+                    .help(format!("add `{name}: ...`: {}", T::WANTED)),
+            );
+        }
+    }
+
+    /// A number that is neither NaN nor infinite.
+    pub fn number(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+        let (&value, span) = self.given(field)?;
+        Some((self.finite(value, name, &span)?, span))
+    }
+
+    /// The number, if it is neither NaN nor infinite.
+    pub fn finite(&mut self, value: f64, name: &str, span: &Span) -> Option<f64> {
+        if value.is_finite() {
+            return Some(value);
+        }
+        self.error(
+            span,
+            format!("`{name}` must be a finite number, found {value}"),
+        );
+        None
+    }
+
+    /// A number without unit, or an angle in degrees, within a range.
+    pub fn within(
+        &mut self,
+        field: &Field<f64>,
+        name: &str,
+        range: std::ops::RangeInclusive<f64>,
+    ) -> Option<(f64, Span)> {
+        let (value, span) = self.number(field, name)?;
+        if range.contains(&value) {
+            return Some((value, span));
+        }
+        let (least, most) = (range.start(), range.end());
+        self.error(
+            &span,
+            format!("`{name}` is {value}; it must be from {least} to {most}"),
+        );
+        None
+    }
+
+    /// A length in millimetres, signed, within ten metres.
+    pub fn length(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+        let (value, span) = self.number(field, name)?;
+        let value = self.scaled(value, name, &span)?;
+        Some((value, span))
+    }
+
+    /// A length of at least `least` millimetres.
+    pub fn length_from(
+        &mut self,
+        field: &Field<f64>,
+        name: &str,
+        least: f64,
+    ) -> Option<(f64, Span)> {
+        let (&value, span) = self.given(field)?;
+        let value = self.measured(value, name, least, &span)?;
+        Some((value, span))
+    }
+
+    /// A number at `span` as a length of at least `least` millimetres.
+    pub fn measured(&mut self, value: f64, name: &str, least: f64, span: &Span) -> Option<f64> {
+        let value = self.finite(value, name, span)?;
+        let value = self.scaled(value, name, span)?;
+        if value >= least {
+            return Some(value);
+        }
+        let wanted = if least > 0.0 {
+            format!("be at least {least} mm")
+        } else {
+            "not be negative".to_string()
+        };
+        self.error(
+            span,
+            format!("`{name}` is {} mm; it must {wanted}", short(value)),
+        );
+        None
+    }
+
+    /// A point in millimetres.
+    pub fn point<const N: usize>(
+        &mut self,
+        values: &[f64; N],
+        name: &str,
+        span: &Span,
+    ) -> Option<[f64; N]> {
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            self.error(
+                span,
+                format!("`{name}` has a coordinate that is not a finite number: {bad}"),
+            );
+            return None;
+        }
+        let mut scaled = [0.0; N];
+        for (to, from) in scaled.iter_mut().zip(values) {
+            *to = self.scaled(*from, name, span)?;
+        }
+        Some(scaled)
+    }
+
+    /// A field that is a point, in millimetres.
+    pub fn point_field<const N: usize>(
+        &mut self,
+        field: &Field<[f64; N]>,
+        name: &str,
+    ) -> Option<([f64; N], Span)>
+    where
+        [f64; N]: Wanted,
+    {
+        let (values, span) = self.given(field)?;
+        let point = self.point(values, name, &span)?;
+        Some((point, span))
+    }
+
+    /// A whole number within a range.
+    pub fn count(
+        &mut self,
+        field: &Field<u32>,
+        name: &str,
+        range: std::ops::RangeInclusive<u32>,
+    ) -> Option<(u32, Span)> {
+        let (&value, span) = self.given(field)?;
+        if range.contains(&value) {
+            return Some((value, span));
+        }
+        let wanted = match *range.end() {
+            u32::MAX => format!("at least {}", range.start()),
+            end => format!("from {} to {end}", range.start()),
+        };
+        self.error(&span, format!("`{name}` is {value}; it must be {wanted}"));
+        None
+    }
+
+    fn scaled(&mut self, value: f64, name: &str, span: &Span) -> Option<f64> {
+        let scaled = value * self.unit;
+        if scaled.abs() <= defaults::LARGEST {
+            return Some(scaled);
+        }
+        let metres = short(scaled / 1000.0);
+        self.error(
+            span,
+            format!(
+                "`{name}` is {value} {}, that is {metres} m; scenes end at 10 m",
+                self.unit_name
+            ),
+        );
+        None
+    }
+}
+
+/// A number for people: at most three decimals, none without need.
+pub fn short(value: f64) -> String {
+    let rounded = (value * 1e3).round() / 1e3;
+    if value != 0.0 && rounded == 0.0 {
+        format!("{value:e}")
+    } else {
+        format!("{rounded}")
+    }
+}
+
+/// `, did you mean ...` for the nearest of `known`, if any is near.
+pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let lower = found.to_lowercase();
+    let likeness = |k: &str| strsim::jaro_winkler(&lower, &k.to_lowercase());
+    let best = known.into_iter().map(|k| (likeness(k), k)).fold(
+        None,
+        |best: Option<(f64, &str)>, next| match best {
+            Some(b) if b.0 >= next.0 => Some(b),
+            _ => Some(next),
+        },
+    )?;
+    (best.0 > 0.78).then_some(best.1)
+}
+
+/// Makes text fit for one line of a terminal: control and direction characters escaped, cut at 60 characters or the first line end.
+pub fn printable(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    let mut out = crate::diag::escaped(&line.chars().take(60).collect::<String>());
+    if line.len() < text.len() || line.chars().count() > 60 {
+        out.push_str("...");
+    }
+    out
+}
+
+/// The first token of what stands at `place`, with its bracket.
+fn head_of(text: &str, place: &Span) -> Span {
+    let slice = &text[place.clone()];
+    let end = slice.find(['(', '[']).map_or(slice.len().min(1), |i| i + 1);
+    place.start..place.start + end
+}
