@@ -77,7 +77,10 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
             )
         },
     );
-    let mut rungs: Vec<Rung> = carved.iter().flat_map(|c| c.rungs.iter().cloned()).collect();
+    let mut rungs: Vec<Rung> = carved
+        .iter()
+        .flat_map(|c| c.rungs.iter().cloned())
+        .collect();
     let mut told = |sound: Sound| {
         rungs.extend(sound.rungs);
         sound.solid

@@ -9,8 +9,8 @@ pub mod layer;
 pub mod printability;
 pub mod tolerance;
 
-use crate::sight::{Loss, Sight};
 use crate::groups::Groups;
+use crate::sight::{Loss, Sight};
 use crate::view::View;
 use crate::viewmap::{Target, ViewMap};
 use std::ops::Range;

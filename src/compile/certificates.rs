@@ -3,17 +3,18 @@
 use super::Built;
 use super::elsewhere::{camouflages, confirmed_tolerance};
 use super::print::print_checks;
-use super::sight::Sight;
+use super::sight::{carried, give_up};
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::{Finished, sighted};
-use crate::certify::layer::{bound_violation_mm, order_inversions, reach_mm, whole_violation_mm};
+use crate::certify::layer::reach_mm;
 use crate::certify::printability::PrintCheck;
-use crate::contest::{Claim, Contest, contested, settle};
+use crate::contest::{Contest, contested, settle};
 use crate::diag::Diagnostic;
 use crate::mimic::{Optimality, Solved};
 use crate::report::{CertificateReport, ModelShare, Proof};
 use crate::scene::Scene;
-use crate::viewmap::SupportField;
+use crate::sight::Sight;
+use crate::words;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -27,46 +28,44 @@ pub struct Settled {
 ///
 /// # Errors
 /// If the scene wants contests to be errors, or a view is left without any surface.
-pub fn settled(
+pub fn settled<'a>(
     scene: &Scene,
-    sights: &mut [Sight],
-    field: &SupportField,
-) -> Result<Settled, Vec<Diagnostic>> {
-    let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
-    let settlement = settle(&claims, field, scene.contested)?;
-    let contested_whole = sights.iter().zip(&settlement.lost);
-    let errors: Vec<Diagnostic> = contested_whole
-        .filter(|(sight, lost)| sight.groups.whole && !lost.is_empty())
-        .map(|(sight, _)| indivisible(&sight.view.name))
-        .collect();
-    if !errors.is_empty() {
-        return Err(errors);
-    }
+    sights: Vec<Sight<'a>>,
+) -> Result<(Vec<Sight<'a>>, Settled), Vec<Diagnostic>> {
+    let settlement = settle(&sights, scene.contested).map_err(|refusals| {
+        refusals
+            .iter()
+            .map(words::contest::refused)
+            .collect::<Vec<_>>()
+    })?;
     let unchanged = settlement.lost.iter().all(Vec::is_empty);
-    let lost = sights.iter_mut().zip(settlement.lost);
-    let errors: Vec<Diagnostic> = lost
-        .filter_map(|(sight, lost)| sight.give_up(lost, field).err())
-        .collect();
-    if !errors.is_empty() {
-        return Err(errors);
-    }
+    let lost = sights.into_iter().zip(settlement.lost);
+    let left = lost.map(|(sight, lost)| give_up(sight, lost, scene));
+    let sights = all_of(left)?;
     let left_arcmin2 = if unchanged {
         vec![0.0; sights.len()]
     } else {
-        let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
-        contested(&claims, field)
+        contested(&sights)
     };
-    Ok(Settled {
+    let settled = Settled {
         contests: settlement.contests,
         left_arcmin2,
-    })
+    };
+    Ok((sights, settled))
 }
 
-fn indivisible(view: &str) -> Diagnostic {
-    Diagnostic::error(format!(
-        "view \"{view}\" would have to give up surface to another view, but its meshes stay whole"
-    ))
-    .help("move supports or models of different views apart, or `relief: HeightField`")
+/// All results, or all errors.
+fn all_of<T>(
+    results: impl Iterator<Item = Result<T, Diagnostic>>,
+) -> Result<Vec<T>, Vec<Diagnostic>> {
+    let (mut good, mut bad) = (Vec::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok(value) => good.push(value),
+            Err(error) => bad.push(error),
+        }
+    }
+    if bad.is_empty() { Ok(good) } else { Err(bad) }
 }
 
 /// What is promised of a finished forest.
@@ -101,34 +100,27 @@ fn certificate(
     finished: &Finished,
 ) -> (CertificateReport, Vec<Diagnostic>) {
     let (sight, shape) = (&built.sights[v], &built.shapes[v]);
-    let (relief, given_up) = (&shape.relief, &built.forest.given_up[v]);
-    let coverage = sight.coverage(built.scene, built.field, given_up);
-    let sighted = sighted(&sight.seen(), v, relief, given_up, finished);
-    let turned = order_inversions(&sight.map, &sight.target, relief);
-    let whole = coverage.solid_angle_sr();
+    let (relief, given_up) = (shape.relief(), &built.forest.given_up[v]);
+    let coverage = carried(sight, built.scene, given_up);
+    let sighted = sighted(&sight.into(), v, relief, given_up, finished);
+    let solved = &shape.depths().solved;
+    let all_sr = coverage.solid_angle_sr();
     let share = |lost: f64, of: f64| if of > 0.0 { lost / of } else { 0.0 };
     let models = coverage.models.iter().zip(&sighted.lost_sr);
-    let mut unseen = coverage.warnings(&sight.view.name);
-    unseen.extend(sighted.warnings(&sight.view.name));
-    let (front, back) = reach_mm(&sight.map, built.field, &sight.groups, relief);
+    let mut unseen = coverage.warnings(sight.name());
+    unseen.extend(sighted.warnings(sight.name()));
+    let (front, back) = reach_mm(sight, relief);
     let certificate = CertificateReport {
         relief_front_mm: front,
         relief_back_mm: back,
-        bound_violation_mm: if sight.groups.whole {
-            whole_violation_mm(&sight.target, sight.view.eye, &sight.groups, &shape.depths)
-        } else {
-            bound_violation_mm(&sight.map, built.field, &sight.groups, relief)
-        },
+        bound_violation_mm: shape.bound_violation_mm(),
         clamp_mm: relief.clamp_mm,
-        order_inversions: match shape.crossings.filter(|_| sight.groups.whole) {
-            Some(crossings) => crossings.order_inversions,
-            None => turned + shape.depths.solved.broken,
-        },
-        crossings: shape.crossings,
-        proof: proof(&shape.depths.solved),
-        not_an_optimum: shape.depths.solved.not_an_optimum,
+        order_inversions: shape.order_inversions(),
+        crossings: shape.crossings(),
+        proof: proof(solved),
+        not_an_optimum: solved.not_an_optimum,
         coverage: coverage.share(),
-        reaching: coverage.share() - share(sighted.lost_sr.iter().sum(), whole),
+        reaching: coverage.share() - share(sighted.lost_sr.iter().sum(), all_sr),
         models: models
             .map(|(model, lost)| ModelShare {
                 name: model.name.clone(),

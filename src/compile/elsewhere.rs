@@ -1,7 +1,6 @@
 //! What eyes see that do not stand in their places: tolerance and camouflage, with their picture.
 
 use super::files::file;
-use super::sight::Sight;
 use super::{Built, OutputFile};
 use crate::certify::camouflage::{Camouflage, camouflage};
 use crate::certify::tolerance::{Movement, Tolerance, confirm, tolerance};
@@ -9,8 +8,10 @@ use crate::diagram::curves::{Curve, curves};
 use crate::relief::Relief;
 use crate::report::CertificateReport;
 use crate::scene::Scene;
+use crate::sight::Sight;
 use crate::support::SupportKind;
 use crate::view::View;
+use crate::viewmap::Image;
 
 /// Width of camouflage.png, pixels.
 const CAMOUFLAGE_PX: u32 = 1600;
@@ -18,9 +19,12 @@ const CAMOUFLAGE_PX: u32 = 1600;
 /// The tolerance of a view, confirmed by rays at the forest.
 pub fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tolerance {
     let supports = &built.scene.supports;
-    let mut found = tolerance(sight.view, &sight.map, &sight.target, relief, supports);
+    let Image {
+        view, map, target, ..
+    } = &sight.image;
+    let mut found = tolerance(view, map, target, relief, supports);
     let mesh = built.forest.whole.mesh();
-    confirm(&mut found, &sight.map.plane, mesh, &built.bvh);
+    confirm(&mut found, &map.plane, mesh, &built.bvh);
     found
 }
 

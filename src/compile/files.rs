@@ -2,7 +2,6 @@
 
 use super::OutputFile;
 use super::pictures::Pictures;
-use super::sight::Shape;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
@@ -12,6 +11,7 @@ use crate::formats::{
     write_surface_ply,
 };
 use crate::geom::FAR_MM;
+use crate::kinds::Optimised;
 use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
@@ -90,13 +90,12 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     files
 }
 
-/// The optimised surfaces that were kept, as PLY and OBJ.
-pub fn surface_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
+/// The optimised surfaces as PLY and OBJ, if they are wanted.
+pub fn surface_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
     let mut files = Vec::new();
-    for (view, shape) in scene.views.iter().zip(shapes) {
-        let Some(surface) = &shape.surface else {
-            continue;
-        };
+    let views = scene.views.iter().zip(shapes);
+    for (view, shape) in views.filter(|_| scene.output.surface) {
+        let surface = &shape.surface();
         let path = |extension| format!("surface-{}.{extension}", view.name);
         files.push(file(path("ply"), write_surface_ply(surface)));
         files.push(file(path("obj"), write_surface_obj(surface)));
@@ -104,18 +103,21 @@ pub fn surface_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
     files
 }
 
-/// The sections that were cut, as SVG and PNG.
-pub fn section_files(scene: &Scene, shapes: &[Shape]) -> Vec<OutputFile> {
+/// Sections of every view as SVG and PNG, if they are wanted.
+pub fn section_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
     let views = scene.views.iter().zip(shapes);
-    let sheet = |(view, shape): (&View, &Shape)| {
-        let sheet = groups_sheet(&view.name, shape.section.as_ref()?);
+    let sheet = |(view, shape): (&View, &Box<dyn Optimised + '_>)| {
+        let sheet = groups_sheet(&view.name, &shape.section());
         let path = |extension| format!("groups-{}.{extension}", view.name);
-        Some([
+        [
             file(path("svg"), sheet.svg().into_bytes()),
             file(path("png"), sheet.png(scene.output.plan_width)),
-        ])
+        ]
     };
-    views.filter_map(sheet).flatten().collect()
+    views
+        .filter(|_| scene.output.groups)
+        .flat_map(sheet)
+        .collect()
 }
 
 /// How far from what is seen the camera of an eye at infinity stands, millimetres: any place outside of all forests will do.

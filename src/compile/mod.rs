@@ -16,18 +16,21 @@ mod summary;
 mod verdict;
 
 use crate::bvh::Bvh;
-use crate::carve::{Forest, ViewRelief, Whole, carve, joined};
+use crate::carve::{Forest, Operand, carve};
 use crate::diag::Diagnostic;
+use crate::kinds::Optimised;
 use crate::planner::{Brief, Watch};
 use crate::scene::{Scene, laid_out};
+use crate::sight::Sight;
 use crate::viewmap::SupportField;
+use crate::words;
 use certificates::{Settled, certificates, settled};
 use elsewhere::{camouflage_files, rooms};
 use files::{counts, file, plan_files, printable_files, section_files, summary, surface_files};
 use page::page;
 use pictures::{picture_files, pictures, turntable_file};
 use rayon::prelude::*;
-use sight::{Shape, Sight, see, unsettled};
+use sight::{carried, optimise, see, unsettled};
 use split::{bodies, pieces, remarks, split_files};
 use summary::report;
 use verdict::failures;
@@ -57,9 +60,9 @@ pub struct Build {
 struct Built<'a> {
     scene: &'a Scene,
     field: &'a SupportField<'a>,
-    sights: Vec<Sight<'a>>,
+    sights: &'a [Sight<'a>],
     settled: Settled,
-    shapes: Vec<Shape>,
+    shapes: &'a [Box<dyn Optimised + 'a>],
     forest: Forest,
     /// That of the whole forest.
     bvh: Bvh,
@@ -132,12 +135,12 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     }
     progress("view maps", 0.02);
     let field = SupportField::new(&scene.supports);
-    let mut sights = all(scene.views.par_iter().map(|v| see(v, &field, scene.whole)))?;
-    let settled = settled(scene, &mut sights, &field)?;
+    let sights = all(scene.views.par_iter().map(|v| see(v, &field, scene)))?;
+    let (sights, settled) = settled(scene, sights)?;
     // A build tells of what is missing as failures.
     let told = sights.par_iter().filter(|_| goal != Goal::All);
     let warnings: Vec<Diagnostic> = told
-        .flat_map_iter(|s| s.coverage(scene, &field, &[]).warnings(&s.view.name))
+        .flat_map_iter(|s| carried(s, scene, &[]).warnings(s.name()))
         .collect();
     if goal == Goal::Check {
         return Ok(Build {
@@ -147,21 +150,21 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
         });
     }
     progress("quadratic programs", 0.15);
-    let shapes = all(sights.par_iter().map(|s| s.shape(scene, &field)))?;
+    let shapes = all(sights.par_iter().map(|s| optimise(s, scene)))?;
     let warnings: Vec<Diagnostic> = warnings
         .into_iter()
         .chain(unsettled(&sights, &shapes))
         .collect();
     progress("solids", 0.45);
-    let forest = solids(&field, &sights, &shapes)?;
+    let forest = solids(&field, &shapes)?;
     progress("pictures", 0.7);
     let built = Built {
         bvh: Bvh::new(forest.whole.mesh()),
         scene,
         field: &field,
-        sights,
+        sights: &sights,
         settled,
-        shapes,
+        shapes: &shapes,
         forest,
     };
     let pictures = pictures(&built);
@@ -170,7 +173,7 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
         return Ok(Build {
             files: picture_files(scene, &pictures, true)
                 .into_iter()
-                .chain(section_files(scene, &built.shapes))
+                .chain(section_files(scene, built.shapes))
                 .chain(turntable_file(&built))
                 .collect(),
             summary,
@@ -192,8 +195,8 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     let certificates = certificates(&built, &bodies);
     progress("files", 0.9);
     let mut files = printable_files(scene, &built.forest);
-    files.extend(surface_files(scene, &built.shapes));
-    files.extend(section_files(scene, &built.shapes));
+    files.extend(surface_files(scene, built.shapes));
+    files.extend(section_files(scene, built.shapes));
     files.extend(turntable_file(&built));
     if let Some(split) = &split {
         let (pieces, warning) = split_files(scene, split);
@@ -218,33 +221,19 @@ fn forest(scene: &Scene, goal: Goal, progress: Progress) -> Result<Build, Vec<Di
     })
 }
 
-/// Reliefs or whole meshes as solids.
+/// The forest of what every view puts on the supports.
 fn solids(
     field: &SupportField,
-    sights: &[Sight],
-    shapes: &[Shape],
+    shapes: &[Box<dyn Optimised + '_>],
 ) -> Result<Forest, Vec<Diagnostic>> {
-    let both = || sights.iter().zip(shapes);
-    let wholes: Option<Vec<Whole>> = both().map(|(s, r)| s.joined(r)).collect();
-    let forest = match wholes {
-        Some(wholes) => joined(field, &wholes),
-        None => {
-            let reliefs: Vec<ViewRelief> = both().map(|(s, r)| s.relief(&r.relief)).collect();
-            carve(field, &reliefs)
-        }
-    };
-    forest.map_err(|e| {
-        let error = Diagnostic::error(e.to_string());
-        let crossings = shapes.iter().filter_map(|s| s.crossings);
-        let pairs: usize = crossings.map(|c| c.self_intersections).sum();
-        let whole = shapes.iter().any(|s| s.whole.is_some());
-        vec![if whole && pairs > 0 {
-            error.help(format!(
-                "whole meshes cross themselves at {pairs} pairs of faces: `ordering: true` in `energy` prevents it"
-            ))
-        } else {
-            error
-        }]
+    let operands: Vec<Operand> = shapes.iter().map(|s| s.operand()).collect();
+    carve(field, &operands).map_err(|e| {
+        let crossing = |(shape, operand): (&Box<dyn Optimised>, &Operand)| match operand {
+            Operand::Mesh { .. } => shape.crossings().map_or(0, |c| c.self_intersections),
+            Operand::Relief { .. } => 0,
+        };
+        let pairs = shapes.iter().zip(&operands).map(crossing).sum();
+        vec![words::solids::unsound(&e, pairs)]
     })
 }
 

@@ -1,8 +1,8 @@
 //! The pictures of a finished forest, and the figures they give.
 
 use super::files::file;
-use super::sight::Shape;
 use super::{Built, OutputFile};
+use crate::kinds::Optimised;
 use crate::render::{
     LightLikeness, Likeness, ViewPictures, light_pictures, turntable, view_pictures,
 };
@@ -20,8 +20,8 @@ pub struct Pictures {
 /// The pictures of every view.
 pub fn pictures(built: &Built) -> Vec<Pictures> {
     let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
-    let of_view = |(v, shape): (&View, &Shape)| {
-        let steps = shape.steps.as_ref().map(|(lines, all)| (&lines[..], *all));
+    let of_view = |(v, shape): (&View, &Box<dyn Optimised + '_>)| {
+        let steps = shape.steps().map(|(lines, all)| (lines, *all));
         let (likeness, view) = view_pictures(v, mesh, bvh, None, steps, output.picture_size);
         Pictures {
             likeness,
@@ -33,7 +33,7 @@ pub fn pictures(built: &Built) -> Vec<Pictures> {
         .scene
         .views
         .iter()
-        .zip(&built.shapes)
+        .zip(built.shapes)
         .map(of_view)
         .collect()
 }

@@ -19,9 +19,8 @@ pub fn see<'a>(
     scene: &Scene,
 ) -> Result<Sight<'a>, Vec<Diagnostic>> {
     let (name, supports) = (&view.name, field.supports);
-    let sight =
-        Sight::new(view, field).map_err(|e| words::sight::unseen(name, supports, &e))?;
-    let held = scene.relief().held(sight);
+    let sight = Sight::new(view, field).map_err(|e| words::sight::unseen(name, supports, &e))?;
+    let held = scene.relief.held(sight);
     held.map_err(|e| vec![words::sight::split(name, supports, e)])
 }
 
@@ -34,7 +33,7 @@ pub fn give_up<'a>(
     lost: Vec<Loss>,
     scene: &Scene,
 ) -> Result<Sight<'a>, Diagnostic> {
-    if !lost.is_empty() && !scene.relief().gives_way() {
+    if !lost.is_empty() && !scene.relief.gives_way() {
         return Err(words::contest::indivisible(sight.name()));
     }
     let left = sight.without(lost);
@@ -52,7 +51,7 @@ pub fn optimise<'a>(
     sight: &'a Sight<'a>,
     scene: &Scene,
 ) -> Result<Box<dyn Optimised + 'a>, Vec<Diagnostic>> {
-    let found = scene.relief().optimised(sight);
+    let found = scene.relief.optimised(sight);
     found.map_err(|e| vec![words::sight::unsolved(sight, &e)])
 }
 

@@ -144,7 +144,7 @@ fn spread(split: &Split) -> Result<Vec<Solid>, String> {
 fn placed(piece: &Piece, at: DVec3) -> Option<Solid> {
     let mesh = piece.solid.mesh();
     let mesh = mesh.transformed(DMat4::from_translation(at));
-    let mended = || Solid::new(mend(&mesh));
+    let mended = || Solid::new(mend(&mesh).mesh);
     Solid::new(mesh.clone()).or_else(|_| mended()).ok()
 }
 

@@ -13,7 +13,7 @@ pub fn report(
     pictures: &[Pictures],
     certificates: Certificates,
 ) -> (Report, Vec<Diagnostic>) {
-    let stages = built.sights.iter().zip(&built.shapes);
+    let stages = built.sights.iter().zip(built.shapes);
     let results = pictures.iter().zip(certificates.views);
     let views = stages
         .zip(results)
@@ -21,12 +21,12 @@ pub fn report(
             solid_angle_sr: Some(certificate.models.iter().map(|m| m.solid_angle_sr).sum()),
             certificate: Some(certificate),
             groups: Some(sight.groups.groups.len()),
-            cells: Some(sight.map.cells.len()),
-            steps: shape.steps.as_ref().map(|s| s.1),
-            program: Some(program(&shape.depths.solved)),
-            iterated: shape.depths.iterated.clone(),
+            cells: Some(sight.image.map.cells.len()),
+            steps: shape.steps().map(|s| *s.1),
+            program: Some(program(&shape.depths().solved)),
+            iterated: shape.depths().iterated.clone(),
             lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
-            ..ViewReport::new(sight.view).with_likeness(&drawn.likeness)
+            ..ViewReport::new(sight.image.view).with_likeness(&drawn.likeness)
         });
     let forest = &built.forest;
     let repairs = &forest.repairs;

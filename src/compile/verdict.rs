@@ -7,11 +7,14 @@ use crate::scene::Scene;
 
 /// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
 pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    let (ordered, whole) = (scene.energy.ordering(), scene.whole.is_some());
+    let promised = [
+        scene.relief.energy().ordering(),
+        scene.relief.keeps_sheets_apart(),
+    ];
     let mut failures: Vec<Diagnostic> = unseen.into_iter().map(Diagnostic::into_error).collect();
     for view in &report.views {
         if let Some(certificate) = &view.certificate {
-            of_view(&view.name, certificate, [ordered, whole], &mut failures);
+            of_view(&view.name, certificate, promised, &mut failures);
         }
     }
     if let Some(solid) = report.solid.as_ref().filter(|s| s.parts > 1) {
@@ -49,7 +52,7 @@ fn print_failure(check: &PrintCheck) -> Diagnostic {
 fn of_view(
     name: &str,
     found: &CertificateReport,
-    [ordered, whole]: [bool; 2],
+    [ordered, sheets_apart]: [bool; 2],
     failures: &mut Vec<Diagnostic>,
 ) {
     let mut fail = |holds: bool, text: String, help: &str| {
@@ -73,7 +76,7 @@ fn of_view(
     );
     let crossing = found.crossings.map_or(0, |c| c.self_intersections);
     fail(
-        !(whole && ordered) || crossing == 0,
+        !sheets_apart || crossing == 0,
         format!("its mesh crosses itself at {crossing} pairs of faces"),
         "`check` tells whether the models cross themselves already; finer or rounder meshes leave more room at their silhouettes",
     );

@@ -153,10 +153,7 @@ pub fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
     for (key, pairs) in found {
         match merged.last_mut().filter(|m| m.claims == key) {
             Some(meeting) => meeting.pairs.extend(pairs),
-            None => merged.push(Meeting {
-                claims: key,
-                pairs,
-            }),
+            None => merged.push(Meeting { claims: key, pairs }),
         }
     }
     for meeting in &mut merged {

@@ -1,6 +1,6 @@
 //! Settles all conflicts by a rule.
 
-use super::claims::{Meeting, Claim, meetings, claims};
+use super::claims::{Claim, Meeting, claims, meetings};
 use crate::geom::SQUARE_ARCMIN;
 use crate::sight::{Loss, Sight};
 use serde::Serialize;
@@ -69,8 +69,7 @@ pub fn settle(sights: &[Sight], rule: Contested) -> Result<Settlement, Vec<Refus
     let turn = turns(sights, &claims, &meetings, rule);
     settled.lost = losses(sights.len(), &claims, &meetings, &turn);
     for meeting in &meetings {
-        let loser =
-            meeting.claims[usize::from(turn[meeting.claims[0]] < turn[meeting.claims[1]])];
+        let loser = meeting.claims[usize::from(turn[meeting.claims[0]] < turn[meeting.claims[1]])];
         let lost_by = sights[claims[loser].view as usize].name();
         for side in 0..2 {
             let view = claims[meeting.claims[side]].view as usize;

@@ -117,7 +117,7 @@ impl Sight {
             return None;
         };
         // The limits of a flat slab are straight: the ends tell all.
-        let step = match layer.datum {
+        let step = match layer.datum() {
             Datum::Plane => run.hits.len().saturating_sub(1).max(1),
             Datum::Surface => 1,
         };
@@ -137,14 +137,14 @@ impl Sight {
     /// Distances on one ray of the layer's front, datum and back.
     fn limits(&self, layer: Layer, axis: DVec2, angle: f64, hit: f64) -> [f64; 3] {
         let distance = self.eye.distance(axis);
-        let at = match layer.datum {
+        let at = match layer.datum() {
             Datum::Surface => hit,
             Datum::Plane => distance * distance / self.direction(angle).dot(axis - self.eye),
         };
         [
             at * (1.0 - layer.front / distance),
             at,
-            at * (1.0 + layer.back / distance),
+            at * (1.0 + layer.back() / distance),
         ]
     }
 }

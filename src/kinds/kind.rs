@@ -33,6 +33,11 @@ impl ReliefKind {
         !matches!(self, Self::Whole(..))
     }
 
+    /// Whether nothing may cross in the mesh as it is built.
+    pub fn keeps_sheets_apart(&self) -> bool {
+        matches!(self, Self::Whole(energy, _) if energy.ordering())
+    }
+
     /// A sight with the bounds of this kind.
     ///
     /// # Errors

@@ -145,4 +145,3 @@ fn violation_mm(sight: &Sight, depths: &Depths) -> f64 {
     };
     groups.bounds.iter().map(outside).fold(0.0, f64::max)
 }
-

@@ -20,7 +20,7 @@ pub use attributes::{Attributes, NO_UV, Original, Scalar, Uvs};
 pub use defects::{Defect, DefectKind, check};
 pub use gate::gate;
 pub use intersect::self_intersections;
-pub use mend::mend;
+pub use mend::{Mended, mend};
 pub use shells::without_cavities;
 pub use simplify::{Simplified, simplified};
 pub use solid::Solid;

@@ -16,10 +16,10 @@
 //! bounds the one nearest to the middles, which is a quadratic program in `y = 1 / s`. There the bounds are linear without tangents:
 //! `nu / upper <= sum of w_k y_k <= nu / lower`, `nu = 1 / mu`.
 
+use super::depths::{Depths, typical_width};
 use super::lazily::MARGIN;
 use super::program::{Program, Quadratic, Row, RowKind};
 use super::solve::{SolveError, Solved, solve};
-use super::depths::{Depths, typical_width};
 use crate::groups::{Bound, Groups};
 use crate::mesh::DisjointSets;
 use crate::sight::Sight;

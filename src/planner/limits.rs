@@ -162,8 +162,8 @@ fn with_pillars(brief: &Brief, factor: f64) -> Brief {
     for shape in brief.shapes.iter_mut().take(brief.allowed) {
         shape.profile.iter_mut().for_each(|p| *p *= factor);
         shape.reach *= factor;
-        shape.layer.back *= factor;
-        shape.layer.core *= factor;
+        let layer = shape.layer;
+        shape.layer = layer.resized(layer.front, layer.back() * factor, layer.core * factor);
     }
     brief
 }

@@ -12,12 +12,12 @@ use crate::certify::printability::PrintCheck;
 use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
 use crate::diag::Diagnostic;
+use crate::kinds::Crossings;
 use crate::mesh::Solid;
 use crate::mimic::Iterated;
 use crate::render::{LightLikeness, Likeness};
 use crate::steps::StepSummary;
 use crate::view::View;
-use crate::whole::Crossings;
 use glam::{DMat4, DVec3};
 use serde::Serialize;
 

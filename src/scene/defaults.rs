@@ -1,12 +1,12 @@
 //! Every default of the scene language, and every limit. Lengths in millimetres, angles in degrees.
 
 use crate::contest::Contested;
+use crate::kinds::Bounded;
 use crate::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use crate::planner::Matters;
 use crate::scene::resolved::{Output, Printer};
 use crate::steps::{Prefer, StepLimits, StepOptions};
-use crate::support::{Datum, Layer, SUNK_MM};
-use crate::whole::Bounded;
+use crate::support::{Extent, Layer, SUNK_MM};
 
 /// Title of a scene that has none.
 pub const TITLE: &str = "Pillar forest";
@@ -18,20 +18,16 @@ pub const ROUND_FACETS: u32 = 64;
 
 /// Where reliefs may lie if the scene does not say: the slab that kept normals best on 8 mm pillars.
 pub const LAYER: Layer = Layer {
-    datum: Datum::Plane,
+    extent: Extent::Plane { back: 2.0 },
     front: 5.0,
-    back: 2.0,
     core: 1.0,
-    through: false,
     hull: false,
 };
 /// Layers of supports that are no pillars: reliefs stand on them.
 pub const ON_BODIES: Layer = Layer {
-    datum: Datum::Plane,
+    extent: Extent::Plane { back: SUNK_MM },
     front: 5.0,
-    back: SUNK_MM,
     core: 1.0,
-    through: false,
     hull: false,
 };
 /// On thinner pillars the default `back` and `core` shrink to these shares of the room behind the datum

@@ -9,7 +9,9 @@ use super::checks::Eye;
 use super::defaults;
 use super::views::{drafts, eye, view};
 use crate::diag::{Diagnostic, Severity, Warned};
+use crate::kinds::ReliefKind;
 use crate::mesh::{Original, TriMesh};
+use crate::mimic::Energy;
 use crate::scene::language::raw::{List, RawModel, RawScene};
 use crate::scene::models::detail;
 use crate::scene::models::marks;
@@ -169,9 +171,11 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
         supports,
         brief,
         adjusted,
-        energy,
-        steps: steps.filter(|_| held.is_none()),
-        whole: held,
+        relief: match (held, steps, energy) {
+            (Some(bounded), _, energy) => ReliefKind::Whole(energy, bounded),
+            (None, Some(steps), Energy::Normal(options)) => ReliefKind::Torn(options, steps),
+            (None, _, energy) => ReliefKind::HeightField(energy),
+        },
         contested,
         printer,
         output,

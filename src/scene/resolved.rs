@@ -1,12 +1,10 @@
 //! A scene with nothing left to decide: what [`resolve`](super::resolve) gives and every later stage takes.
 
 use crate::contest::Contested;
-use crate::mimic::Energy;
+use crate::kinds::ReliefKind;
 use crate::planner::{Adjustment, Brief};
-use crate::steps::StepOptions;
 use crate::support::Support;
 use crate::view::View;
-use crate::whole::Bounded;
 
 /// A resolved scene: millimetres, every mesh loaded and placed, every default filled in.
 #[derive(Clone, Debug)]
@@ -21,11 +19,8 @@ pub struct Scene {
     pub brief: Option<Brief>,
     /// How a layout file changed the models of every view; done in `views` already.
     pub adjusted: Vec<Adjustment>,
-    pub energy: Energy,
-    /// `None`: the surface stays in one piece, as in the paper.
-    pub steps: Option<StepOptions>,
-    /// What of meshes is held that are deformed as a whole; `None`: reliefs are height fields.
-    pub whole: Option<Bounded>,
+    /// How surfaces become reliefs, and the energy they minimise.
+    pub relief: ReliefKind,
     /// Who gets surface that two views want.
     pub contested: Contested,
     pub printer: Printer,

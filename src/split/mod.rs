@@ -421,12 +421,12 @@ fn standing_on_zero(body: &Boolean, up: f64, name: &str) -> Result<Solid, CarveE
     };
     for k in 0..NUDGES {
         let far = sound(&at(FAR + f64::from(k) * NUDGE)?, name);
-        let back = far.map(|s| Solid::new(moved(s.mesh(), -FAR)));
+        let back = far.map(|s| Solid::new(moved(s.solid.mesh(), -FAR)));
         if let Ok(Ok(solid)) = back {
             return Ok(solid);
         }
     }
-    sound(&at(DVec3::ZERO)?, name)
+    Ok(sound(&at(DVec3::ZERO)?, name)?.solid)
 }
 
 fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {

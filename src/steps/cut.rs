@@ -1,8 +1,8 @@
 //! Cutting the target's mesh: a vertex for every bundle of corners that stay together.
 
 use super::fusion::PatchDepths;
-use super::patches::Patches;
 use super::options::{Prefer, StepOptions};
+use super::patches::Patches;
 use crate::groups::Anchor;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::mimic::{Depths, Opening, Order, Step, Tie};

@@ -1,7 +1,7 @@
 //! The tear lines of a finished surface, for pictures and figures.
 
-use super::options::UNSEEN_RAD;
 use super::fusion::PatchDepths;
+use super::options::UNSEEN_RAD;
 use super::patches::{Patches, Seam};
 use crate::geom::parallax;
 use crate::groups::{Anchor, anchor};

@@ -2,7 +2,7 @@
 
 use super::options::{StepLimits, UNSEEN_RAD};
 use crate::geom::ImagePlane;
-use crate::groups::{Groups, anchor};
+use crate::groups::{Anchor, Groups, anchor};
 use crate::laplacian::FaceGeometry;
 use crate::mimic::TOGETHER_MM;
 use crate::sight::Sight;

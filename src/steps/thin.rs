@@ -4,7 +4,7 @@
 //! lies deep. It joins the neighbour that costs least, drawn in to the layer: its normals turn, the strip is gone. In the final
 //! program it hardly counts, so that the neighbour does not bend for it.
 
-use super::fusion::{PatchDepths, Functional};
+use super::fusion::{Functional, PatchDepths};
 use super::patches::Patches;
 use crate::groups::anchor;
 use crate::viewmap::{Image, Target, ViewMap};

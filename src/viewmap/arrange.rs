@@ -1,7 +1,7 @@
 //! The arrangement itself: a constrained Delaunay triangulation split at crossings. The only module that names `spade`.
 
-use super::outline::Segment;
 use super::map::{Cell, ViewMap, ViewMapError};
+use super::outline::Segment;
 use super::target::Target;
 use crate::geom::ImagePlane;
 use crate::mesh::{TriMesh, face_neighbours};

@@ -18,7 +18,6 @@ pub const THINNEST_MM: f64 = 0.002;
 /// Rounds of finding faces that the first guess missed. The creatures and scans need two or three.
 const MAX_ROUNDS: usize = 5;
 
-
 /// Computes the view map of `target` over `supports`.
 ///
 /// # Errors
@@ -72,7 +71,6 @@ fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
         }
     }
 }
-
 
 /// Faces seen at their centre or near a corner.
 fn seen_at_samples(plane: &ImagePlane, target: &Target) -> Vec<bool> {
@@ -170,4 +168,3 @@ fn missing_faces(
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
-

@@ -12,9 +12,9 @@
 
 use super::problem::Problem;
 use super::sheet::Sheet;
+use crate::mesh::TriMesh;
 use crate::mimic::depths::{Depths, seen_solid_angles};
 use crate::mimic::iterated::{Ending, Iterated, Round};
-use crate::mesh::TriMesh;
 use glam::DVec3;
 
 /// Change at which the rounds have converged, as a share of the layer's width: 7 micrometres of 7 mm, less than any printer's

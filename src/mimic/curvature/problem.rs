@@ -60,7 +60,12 @@ impl<'a> Problem<'a> {
     }
 
     /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
-    pub fn solve(&self, sheet: &Sheet, forms: &[Form], start: &[f64]) -> Result<Depths, SolveError> {
+    pub fn solve(
+        &self,
+        sheet: &Sheet,
+        forms: &[Form],
+        start: &[f64],
+    ) -> Result<Depths, SolveError> {
         let n = start.len();
         let variables = n + self.groups.groups.len();
         let mut quadratic = Quadratic::new(variables);

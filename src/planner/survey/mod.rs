@@ -34,15 +34,15 @@ pub struct Offsets {
 impl Offsets {
     pub fn new(shape: &Shape) -> Self {
         let layer = shape.layer;
-        let near = match layer.datum {
+        let near = match layer.datum() {
             Datum::Plane => -layer.front,
             Datum::Surface => -layer.front - shape.reach,
         };
         Self {
             near,
-            back: layer.back,
-            far: layer.back + BACKING_MM,
-            middle: (near + layer.back) / 2.0,
+            back: layer.back(),
+            far: layer.back() + BACKING_MM,
+            middle: (near + layer.back()) / 2.0,
         }
     }
 }

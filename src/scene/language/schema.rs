@@ -185,7 +185,7 @@ fn pillar_sections() -> Vec<Section> {
             field("from", "Axis | Face | Surface", format!("{}; Face on plates and strips, Surface on other supports", datum()), "measured from the upright plane through a pillar's axis that faces the eye, square to a plate's face, or along the rays from the surface"),
             field("hits", "(1, 1) | (1, 2)", "(1, 1)", "where rays meet the support: around the first hit, or from there through the wall, up to `core` before rays leave it (not on pillars; `back` plays no part)"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
-            field("back", "length", format!("{} mm, at most {} of the room behind; {} mm where there are no pillars", defaults::LAYER.back, defaults::BACK_SHARE, defaults::ON_BODIES.back), "away from the eye: reliefs are carved in"),
+            field("back", "length", format!("{} mm, at most {} of the room behind; {} mm where there are no pillars", defaults::LAYER.back(), defaults::BACK_SHARE, defaults::ON_BODIES.back()), "away from the eye: reliefs are carved in"),
             field("core", "length", format!("{} mm, at most {} of the room behind", defaults::LAYER.core, defaults::CORE_SHARE), "what must be left of the support behind it"),
             field("outline", "Free | OnSupport", "Free", "whether the outline of every object must lie on the datum, to 0.05 mm"),
         ]),
@@ -436,7 +436,7 @@ fn form() -> &'static str {
 }
 
 fn datum() -> &'static str {
-    match defaults::LAYER.datum {
+    match defaults::LAYER.datum() {
         Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     }

@@ -46,12 +46,11 @@ pub fn as_written(mut entry: Entry) -> Entry {
 /// A layer as layout files hold it.
 pub fn layer_as_written(layer: Layer) -> Layer {
     let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
-    Layer {
-        front: length(layer.front),
-        back: length(layer.back),
-        core: length(layer.core),
-        ..layer
-    }
+    layer.resized(
+        length(layer.front),
+        length(layer.back()),
+        length(layer.core),
+    )
 }
 
 /// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its pillars may stand in `region` besides the `fixed`

@@ -101,7 +101,7 @@ fn head(scene: &Scene, planned: &Planned) -> String {
 
 fn entry(group: &Group) -> String {
     let layer = layer_as_written(group.shape.layer);
-    let from = match layer.datum {
+    let from = match layer.datum() {
         Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     };
@@ -121,7 +121,7 @@ fn entry(group: &Group) -> String {
         group.shape.written,
         group.height,
         layer.front,
-        layer.back,
+        layer.back(),
         layer.core,
         lines.join(",\n                ")
     )

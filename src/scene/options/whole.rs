@@ -1,12 +1,12 @@
 //! `relief`: whether whole meshes are deformed, and what a scene must be like for that.
 
+use crate::kinds::Bounded;
 use crate::mesh::{Edges, HalfEdge, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawBounded, RawEnergy, RawRelief, RawScene, RawSteps};
 use crate::scene::text::reader::{Reader, Span, error_at, short};
 use crate::scene::text::spanned::Field;
 use crate::support::{SUNK_MM, Support};
-use crate::whole::Bounded;
 
 /// What of whole meshes is held; `None`: reliefs are height fields.
 pub fn whole(reader: &mut Reader, raw: &RawScene) -> Option<Bounded> {
@@ -71,7 +71,7 @@ pub fn check_supports(
         );
     }
     let carved = bodies.iter().find_map(|b| {
-        let back = b.layer?.back;
+        let back = b.layer.filter(|l| !l.goes_through())?.back();
         (back > SUNK_MM).then_some((&b.name, back))
     });
     if let (Some((name, back)), Some((_, span))) = (carved, reader.given(&raw.relief)) {

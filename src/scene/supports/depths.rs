@@ -4,7 +4,7 @@ use super::shapes;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawDatum, RawDepth, RawOutline};
 use crate::scene::text::reader::{Reader, Span, error_at, short};
-use crate::support::{Datum, Layer, SUNK_MM};
+use crate::support::{Datum, Extent, Layer, SUNK_MM};
 use glam::DVec2;
 
 /// A depth layer as far as the scene gives it, millimetres.
@@ -105,7 +105,7 @@ fn through(reader: &mut Reader, raw: &RawDepth) -> Option<bool> {
 /// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the eyes.
 pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
     let span = wish.span.as_ref().unwrap_or(entry);
-    let through = wish.through.unwrap_or(defaults::ON_BODIES.through);
+    let through = wish.through == Some(true);
     let usual = match flat && !through {
         true => Datum::Plane,
         false => Datum::Surface,
@@ -131,12 +131,16 @@ pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Spa
             .problems
             .push(error_at(span, format!("a layer from: {name} here: {what}")).help(help));
     }
+    let back = wish.back.unwrap_or(defaults::ON_BODIES.back()).max(SUNK_MM);
+    let datum = wish.datum.map_or(usual, |(datum, _)| datum);
     Layer {
-        datum: wish.datum.map_or(usual, |(datum, _)| datum),
+        extent: match datum {
+            Datum::Surface if through => Extent::Wall,
+            Datum::Surface => Extent::Surface { back },
+            Datum::Plane => Extent::Plane { back },
+        },
         front: wish.front.unwrap_or(defaults::ON_BODIES.front),
-        back: wish.back.unwrap_or(defaults::ON_BODIES.back).max(SUNK_MM),
         core: wish.core.unwrap_or(defaults::ON_BODIES.core),
-        through,
         hull: wish.hull.unwrap_or(defaults::ON_BODIES.hull),
     }
 }
@@ -164,7 +168,9 @@ pub fn settled(
         let help = "`hits` belong into the `depth` of supports that are no pillars";
         reader.problems.push(error_at(span, text).help(help));
     }
-    let datum = wish.datum.map_or(defaults::LAYER.datum, |(datum, _)| datum);
+    let datum = wish
+        .datum
+        .map_or(defaults::LAYER.datum(), |(datum, _)| datum);
     let (room, of) = match (datum, round) {
         (Datum::Plane, true) => (reach, "the radius"),
         (Datum::Plane, false) => (width / 2.0, "half the width"),
@@ -176,7 +182,7 @@ pub fn settled(
         .unwrap_or(defaults::LAYER.core.min(defaults::CORE_SHARE * room));
     let back = wish
         .back
-        .unwrap_or(defaults::LAYER.back.min(defaults::BACK_SHARE * room));
+        .unwrap_or(defaults::LAYER.back().min(defaults::BACK_SHARE * room));
     if back + core > room + 1e-6 {
         let (back, core) = (short(back), short(core));
         reader.problems.push(
@@ -185,11 +191,12 @@ pub fn settled(
         );
     }
     Layer {
-        datum,
+        extent: match datum {
+            Datum::Plane => Extent::Plane { back },
+            Datum::Surface => Extent::Surface { back },
+        },
         front,
-        back,
         core,
-        through: false,
         hull: wish.hull.unwrap_or(defaults::LAYER.hull),
     }
 }
