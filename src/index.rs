@@ -2,8 +2,7 @@
 //!
 //! Each is a position in some list, as `u32`. Lists stay plain `Vec`s and slices; any of these types indexes them directly.
 
-use std::ops::{Index, IndexMut};
-
+/// Defines index types, each with its documentation.
 macro_rules! indices {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
         $(#[$doc])*
@@ -28,7 +27,7 @@ macro_rules! indices {
             }
         }
 
-        impl<T> Index<$name> for [T] {
+        impl<T> std::ops::Index<$name> for [T] {
             type Output = T;
 
             fn index(&self, index: $name) -> &T {
@@ -36,13 +35,13 @@ macro_rules! indices {
             }
         }
 
-        impl<T> IndexMut<$name> for [T] {
+        impl<T> std::ops::IndexMut<$name> for [T] {
             fn index_mut(&mut self, index: $name) -> &mut T {
                 &mut self[index.at()]
             }
         }
 
-        impl<T> Index<$name> for Vec<T> {
+        impl<T> std::ops::Index<$name> for Vec<T> {
             type Output = T;
 
             fn index(&self, index: $name) -> &T {
@@ -50,13 +49,15 @@ macro_rules! indices {
             }
         }
 
-        impl<T> IndexMut<$name> for Vec<T> {
+        impl<T> std::ops::IndexMut<$name> for Vec<T> {
             fn index_mut(&mut self, index: $name) -> &mut T {
                 &mut self[index.at()]
             }
         }
     )*};
 }
+
+pub(crate) use indices;
 
 indices! {
     /// A vertex of a mesh.

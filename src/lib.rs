@@ -14,19 +14,21 @@
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
 //! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
-//! | a view's models | [`viewmap::Target::new`] | the target ready for rays, projected |
-//! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |
-//! | view map | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
-//! | groups of all views | [`contest::settle`] | [`contest::Settlement`]: contested surface, and which view loses it |
-//! | groups | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
-//! | or groups | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with its target, map and groups |
-//! | groups of a mesh that stays whole | [`whole::whole`] | the same as one group, hidden parts held too; afterwards [`whole::moved`], the closed mesh, and its [`whole::Crossings`] |
+//! | a view, supports | [`viewmap::Image::new`] | its models projected, and the map of what it sees: which face and which support, as cells of its image |
+//! | image | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
+//! | a view, supports | [`sight::Sight::new`] | both as one value, which all stages below take |
+//! | sight | [`kinds::ReliefKind::held`] | the same with what its kind of relief holds |
+//! | sights of all views | [`contest::settle`] | [`contest::Settlement`]: contested surface, and which view loses it |
+//! | sight | [`mimic::depths`] | [`mimic::Depths`]: relative depth of every vertex, scale of every group |
+//! | or sight | [`steps::torn`] | [`steps::Torn`]: the same for the surface cut along tears, with a sight of its own |
 //! | depths | [`surface::surface`] | [`surface::Surface`]: the optimised surface with the input's attributes, for other programs |
 //! | depths | [`relief::relief`] | [`relief::Relief`]: depth of every cell's corners, cut and scaled back |
 //! | depths and relief | [`diagram::section::section`] | [`diagram::section::Section`]: groups cut open through the eye, their bounds, scales and pieces |
-//! | reliefs of all views | [`carve::carve`], [`carve::joined`] for whole meshes | [`carve::Forest`]: checked solids |
+//! | sight | [`kinds::ReliefKind::optimised`] | [`kinds::Optimised`]: the last four in the way of its kind of relief, and their certificate |
+//! | what all views put on supports | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
+//! | what stages found | [`words`] | [`diag::Diagnostic`]s for people |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
 //!
@@ -36,6 +38,42 @@
 //! `lambda0` that of the model; `s = lambda / lambda0 = z / z0` relative depth; `x = ln s`; `mu_g` scale of group `g`,
 //! `m_g = ln mu_g`; `w` vertex weight. Millimetres, radians and f64 unless a name says otherwise; z is up. An eye at infinity is
 //! one [`geom::FAR_MM`] away whose image is measured as from [`geom::READING_MM`]: only tolerances in log depth know the difference.
+//!
+//! # Glossary
+//!
+//! Words of this project. Those of the field (BVH, quadratic program, winding number) mean what they mean elsewhere.
+//!
+//! | word | means |
+//! |---|---|
+//! | view | an eye with the models it is to see |
+//! | support | a solid that carries reliefs: a pillar, or a body of any other form; the base carries none |
+//! | layer | the room a relief may fill on a support; its *datum* is what it is measured from, its *slab* how one eye meets it |
+//! | core | material that must be left of a support behind a layer |
+//! | target | the models of a view as one mesh, projected |
+//! | view map | the image of an eye, triangulated into *cells*, each of one model face on one support |
+//! | facet | a face of the supports' mesh, in contrast to one of the model |
+//! | group | a connected part of the image on one support, with a scale `mu` of its own |
+//! | anchor | a point of a face as a mix of its vertices |
+//! | bound | how near and how far an anchor may lie, before `mu` is applied |
+//! | drawn | of a bound or outline: made to lie on the support itself |
+//! | order | of two sheets on one ray: which of them is nearer |
+//! | free | a vertex without bounds |
+//! | sight | all that is known of a view before its depths are found |
+//! | contest | surface that two views want |
+//! | kind of relief | height field, torn, or whole |
+//! | whole | a closed mesh that is deformed and built as it is, in contrast to what is cut |
+//! | step, tear | a jump of depth along rays, and the line where the surface is torn for it |
+//! | patch | the part of one face seen on one group; tears run between patches |
+//! | relief | the optimised surface cut and scaled back onto its supports |
+//! | block | a relief as a solid, with its backing |
+//! | hollow | what is carved out of a support before a relief |
+//! | bed, lap | how far a relief is sunk in its support's edge, and goes on behind a nearer support |
+//! | brace | a tie between a part that would float and its support |
+//! | bare | a support without its reliefs |
+//! | ladder, rung | ways to do a thing that are tried in turn, and the one that held |
+//! | brief | what the planner is to find |
+//! | tolerance | how far an eye may move before steps open |
+//! | camouflage | how little of a model is left from elsewhere |
 //!
 //! # Invariants
 //!
@@ -48,6 +86,8 @@
 //! - One library, one module: `alum` in [`mesh::simplify`], `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in
 //!   `mimic::solve`, `faer` in `mimic::dual::factor`, `manifold-rust` in `carve::boolean`, `i_overlay` in `carve::hollow`, `exmex` in
 //!   `scene::supports::heights`, `rand` in [`planner`].
+//! - Geometry does not speak to users: stages return typed findings, and [`words`] turns them into messages. Files and scene texts are
+//!   read by those who know their lines and columns, and word what is wrong there.
 //! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that are no
 //!   pillars are one kind, a body: a new form is a new mesh in `scene::supports::forms`, not a new pipeline.
 #![forbid(unsafe_code)]

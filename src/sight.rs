@@ -4,6 +4,7 @@
 //! sight again.
 
 use crate::groups::{Groups, ThinSupport, groups, with_bounds, without};
+use crate::index::{CellId, SupportId, ViewId};
 use crate::view::View;
 use crate::viewmap::{Image, SupportField, Target, ViewMap, ViewMapError};
 use std::ops::Range;
@@ -11,11 +12,11 @@ use std::ops::Range;
 /// A cell that its view loses to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Loss {
-    pub cell: u32,
-    /// The view that owns the place, as an index.
-    pub owner: u32,
+    pub cell: CellId,
+    /// The view that owns the place.
+    pub owner: ViewId,
     /// The owner's support there.
-    pub support: u32,
+    pub support: SupportId,
 }
 
 /// See the module.
@@ -70,7 +71,7 @@ impl<'a> Sight<'a> {
     /// The same without the cells it loses (rising), which may leave it nothing.
     pub fn without(mut self, lost: Vec<Loss>) -> Self {
         if !lost.is_empty() {
-            let cells: Vec<u32> = lost.iter().map(|l| l.cell).collect();
+            let cells: Vec<CellId> = lost.iter().map(|l| l.cell).collect();
             self.groups = without(&self.groups, &cells, &self.image);
             self.lost = lost;
         }

@@ -9,6 +9,7 @@
 //! Symbols: eye `o`; `lambda0 = |v - o|`, `lambda = s lambda0`; the relief on a support is `o + (p - o) / mu_g`.
 
 use crate::groups::Groups;
+use crate::index::GroupId;
 use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs};
 use crate::mimic::Depths;
 use crate::sight::Sight;
@@ -23,7 +24,7 @@ pub const UNBOUNDED: f64 = f32::MAX as f64;
 
 /// What the optimisation says of a vertex; lengths in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct VertexReach {
     /// Distance from the eye in the optimised surface and in the model.
     pub lambda: f64,
     pub lambda0: f64,
@@ -44,7 +45,7 @@ pub struct Surface {
     /// Of `mesh`. A model without colours is white, one without some scalar has 0.
     pub attributes: Attributes,
     /// Index: vertex.
-    pub reach: Vec<Reach>,
+    pub reach: Vec<VertexReach>,
     /// The vertex of the input, counted from 0 through the files of all models. Index: vertex.
     pub input_vertex: Vec<u32>,
     /// What a reader of the file must know, one line each.
@@ -70,13 +71,13 @@ fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
         let bound = solved.and_then(|v| bounds[v]);
         let lambda0 = point.distance(view.eye);
         let (least, most) = bound.map_or((0.0, f64::INFINITY), |b| (b.least, b.most));
-        let reach = Reach {
+        let reach = VertexReach {
             lambda: s * lambda0,
             lambda0,
             lambda_min: least * lambda0,
             lambda_max: (most * lambda0).min(UNBOUNDED),
-            group: bound.map_or(-1, |b| b.group as i32),
-            mu: bound.map_or(1.0, |b| depths.mu[b.group as usize]),
+            group: bound.map_or(-1, |b| b.group.0 as i32),
+            mu: bound.map_or(1.0, |b| depths.mu[b.group]),
         };
         (view.eye + s * (point - view.eye), reach)
     };
@@ -101,7 +102,7 @@ fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
 /// The tightest bounds of `s` at a vertex.
 #[derive(Clone, Copy)]
 struct VertexBound {
-    group: u32,
+    group: GroupId,
     least: f64,
     most: f64,
 }
@@ -113,7 +114,7 @@ fn vertex_bounds(groups: &Groups, depths: &Depths, count: usize) -> Vec<Option<V
         let (Some((vertex, _)), None) = (terms.next(), terms.next()) else {
             continue;
         };
-        let mu = depths.mu[bound.group as usize];
+        let mu = depths.mu[bound.group];
         let slot = bounds[vertex].get_or_insert(VertexBound {
             group: bound.group,
             least: 0.0,
@@ -238,7 +239,7 @@ impl<'a> Input<'a> {
         let mut corners = Vec::with_capacity(faces.len());
         let own_uvs = self.attributes.uvs.as_ref();
         for (face, target_face) in faces.iter().zip(&torn.faces) {
-            let input_face = face_of[*target_face as usize].map(|f| f as usize);
+            let input_face = face_of[*target_face].map(|f| f as usize);
             corners.push(face.map(|v| {
                 let target = Some(torn.vertices[v as usize] as usize);
                 let is_same = |i: &u32| self.target[*i as usize] == target;

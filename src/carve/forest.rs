@@ -1,6 +1,7 @@
 //! What carving gives: checked solids, what was changed on the way, or why there are none.
 
 use super::boolean::BooleanError;
+use crate::index::CellId;
 use crate::ladder::Rung;
 use crate::mesh::{Defect, Solid};
 use glam::DVec3;
@@ -15,7 +16,7 @@ pub struct Forest {
     /// The reliefs of each view, in the order of the views; `None` for a view without any.
     pub reliefs: Vec<Option<Solid>>,
     /// Cells of each view's map that had to be given up, rising.
-    pub given_up: Vec<Vec<u32>>,
+    pub given_up: Vec<Vec<CellId>>,
     /// Every support with its reliefs, in the order of the supports.
     pub standing: Vec<Solid>,
     /// What had to be changed on the way.

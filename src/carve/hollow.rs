@@ -1,6 +1,7 @@
 //! The carving in front of a relief: a frustum of the eye's rays. The only module that names `i_overlay`.
 
 use super::boolean::{Boolean, BooleanError};
+use crate::index::{CellId, PointId, SupportId};
 use crate::relief::block;
 use crate::support::Slab;
 use crate::viewmap::ViewMap;
@@ -29,8 +30,8 @@ pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 pub fn hollow(
     map: &ViewMap,
     slab: &Slab,
-    support: u32,
-    cells: &[u32],
+    support: SupportId,
+    cells: &[CellId],
     bed: f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
@@ -43,21 +44,21 @@ pub fn hollow(
 pub fn shell_hollow(
     map: &ViewMap,
     slab: &Slab,
-    support: u32,
-    cells: &[u32],
+    support: SupportId,
+    cells: &[CellId],
     bed: f64,
-    floor: impl Fn(u32, DVec2) -> f64,
+    floor: impl Fn(CellId, DVec2) -> f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
     let mut depth = vec![None; map.cells.len()];
     for c in cells {
-        depth[*c as usize] = Some(map.triangle(*c as usize).map(|q| floor(*c, q)));
+        depth[*c] = Some(map.triangle(*c).map(|q| floor(*c, q)));
     }
     // Everything behind the floor, to beyond the support: what is left of a frustum through all of it is what is in front.
     let beyond = |by: f64| slab.beyond() + by * CLEAR_MM;
-    let end = |_: u32, q: DVec2| slab.plane(map.plane.direction(q), beyond(2.0));
+    let end = |_: CellId, q: DVec2| slab.plane(map.plane.direction(q), beyond(2.0));
     let behind = block(map, cells, &depth, end, |_, _| false, 0.0);
-    let kept: Vec<u32> = cells
+    let kept: Vec<CellId> = cells
         .iter()
         .copied()
         .filter(|c| behind.dropped.binary_search(c).is_err())
@@ -89,12 +90,12 @@ fn frustum(
 
 /// The part of the image that is carved: narrower than the relief where its support goes on beside it, wider where it ends or is
 /// hidden. A shell is carved to different depths; what of it is hidden stays.
-fn shape(map: &ViewMap, slab: &Slab, support: u32, cells: &[u32], [bed, scale]: [f64; 2]) -> Rings {
-    let goes_on = |c: &u32| match map.cells[*c as usize].support {
+fn shape(map: &ViewMap, slab: &Slab, support: SupportId, cells: &[CellId], [bed, scale]: [f64; 2]) -> Rings {
+    let goes_on = |c: &CellId| match map.cells[*c].support {
         Some(found) => found == support || slab.is_shell(),
         None => false,
     };
-    let seen: Vec<u32> = (0..map.cells.len() as u32).filter(goes_on).collect();
+    let seen: Vec<CellId> = CellId::all(map.cells.len()).filter(goes_on).collect();
     let relief = simple(outlines(map, cells, scale));
     let seen = simple(outlines(map, &seen, scale));
     let rim = offset(&relief, RIM_MM).overlay(
@@ -107,12 +108,12 @@ fn shape(map: &ViewMap, slab: &Slab, support: u32, cells: &[u32], [bed, scale]: 
 }
 
 /// The boundary of a set of cells (rising) as closed rings.
-fn outlines(map: &ViewMap, cells: &[u32], scale: f64) -> Rings {
-    let mut next: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+fn outlines(map: &ViewMap, cells: &[CellId], scale: f64) -> Rings {
+    let mut next: BTreeMap<PointId, Vec<PointId>> = BTreeMap::new();
     for c in cells {
-        let cell = &map.cells[*c as usize];
+        let cell = &map.cells[*c];
         for k in 0..3 {
-            if map.neighbours[*c as usize][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
+            if map.neighbours[*c][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
                 next.entry(cell.corners[k])
                     .or_default()
                     .push(cell.corners[(k + 1) % 3]);
@@ -128,7 +129,7 @@ fn outlines(map: &ViewMap, cells: &[u32], scale: f64) -> Rings {
             if ends.is_empty() {
                 next.remove(&at);
             }
-            ring.push((map.points[at as usize] * scale).to_array());
+            ring.push((map.points[at] * scale).to_array());
             at = to.unwrap_or(start);
         }
         rings.push(ring);

@@ -1,6 +1,6 @@
 //! From reliefs to solids: supports are carved along the eyes' rays in front of the reliefs, and everything is united.
 //!
-//! Takes supports and, per view, the relief over its view map. Gives the whole forest, the bare part (base and pillars) and each
+//! Takes supports and what every view puts on them ([`Operand`]): the relief over its view map, or a mesh as it is. Gives the whole forest, the bare part (base and pillars) and each
 //! view's reliefs as checked solids. Promises: closed, oriented, 2-manifold, free of self-intersection, in f32.
 //!
 //! Operands never share a wall. The carving reaches deeper than any relief, to half-way inside the relief's solid backing, and

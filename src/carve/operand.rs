@@ -1,5 +1,6 @@
 //! What one view adds to the forest.
 
+use crate::index::SupportId;
 use crate::mesh::TriMesh;
 use crate::relief::Relief;
 use crate::sight::Sight;
@@ -15,7 +16,7 @@ pub enum Operand<'a> {
     Mesh {
         /// Of its view.
         name: &'a str,
-        support: u32,
+        support: SupportId,
         mesh: &'a TriMesh,
     },
 }

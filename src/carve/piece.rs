@@ -3,6 +3,7 @@
 use super::boolean::{Boolean, BooleanError};
 use super::forest::Repairs;
 use super::hollow;
+use crate::index::{CellId, SupportId};
 use crate::mesh::DisjointSets;
 use crate::relief::{Relief, block};
 use crate::sight::Sight;
@@ -19,27 +20,26 @@ const SHEET_MM: f64 = 0.05;
 pub struct Piece<'a> {
     image: &'a Image<'a>,
     relief: &'a Relief,
-    support: u32,
+    support: SupportId,
     pub slab: Slab,
     /// With a relief, rising.
-    cells: Vec<u32>,
+    cells: Vec<CellId>,
 }
 
 /// A relief as a solid, and the cells it had to give up, rising.
 pub struct ReliefSolid {
     pub solid: Boolean,
-    pub dropped: Vec<u32>,
+    pub dropped: Vec<CellId>,
 }
 
 impl<'a> Piece<'a> {
     /// `None` if the view has no relief there.
-    pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: u32) -> Option<Self> {
+    pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: SupportId) -> Option<Self> {
         let cells = &sight.image.map.cells;
-        let on = |c: &u32| {
-            cells[*c as usize].support == Some(support) && relief.depth[*c as usize].is_some()
-        };
-        let cells: Vec<u32> = (0..cells.len() as u32).filter(on).collect();
-        let slab = sight.groups.slabs[support as usize].filter(|_| !cells.is_empty())?;
+        let on =
+            |c: &CellId| cells[*c].support == Some(support) && relief.depth[*c].is_some();
+        let cells: Vec<CellId> = CellId::all(cells.len()).filter(on).collect();
+        let slab = sight.groups.slabs[support].filter(|_| !cells.is_empty())?;
         Some(Self {
             image: &sight.image,
             relief,
@@ -51,7 +51,7 @@ impl<'a> Piece<'a> {
 
     pub fn relief(&self, lap: f64, repairs: &mut Repairs) -> Result<ReliefSolid, BooleanError> {
         let map = &self.image.map;
-        let back = |c: u32, q: DVec2| {
+        let back = |c: CellId, q: DVec2| {
             if self.slab.is_shell() {
                 self.shell(c, q, 1.0)
             } else {
@@ -77,7 +77,7 @@ impl<'a> Piece<'a> {
     pub fn hollow(&self, bed: f64) -> Result<Boolean, BooleanError> {
         let (map, slab, cells) = (&self.image.map, &self.slab, &self.cells);
         if slab.is_shell() {
-            let floor = |c: u32, q: DVec2| self.shell(c, q, FLOOR);
+            let floor = |c: CellId, q: DVec2| self.shell(c, q, FLOOR);
             hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
         } else {
             hollow::hollow(map, slab, self.support, cells, bed)
@@ -85,26 +85,26 @@ impl<'a> Piece<'a> {
     }
 
     /// Where a shell's backing ends (`share` 1), or part of the way to there.
-    fn shell(&self, cell: u32, q: DVec2, share: f64) -> f64 {
-        let surface = self.image.surface_in(&self.slab, cell as usize, q);
+    fn shell(&self, cell: CellId, q: DVec2, share: f64) -> f64 {
+        let surface = self.image.surface_in(&self.slab, cell, q);
         self.slab.shell_backing(surface, share)
     }
 
     /// Cells (rising) in parts over which the surface of a shell does not jump: where one fold of it hides another it does.
-    fn sheets(&self) -> Vec<Vec<u32>> {
+    fn sheets(&self) -> Vec<Vec<CellId>> {
         let cells = &self.cells;
         if !self.slab.is_shell() {
             return vec![cells.clone()];
         }
         let map = &self.image.map;
-        let local = |c: &u32| cells.binary_search(c).ok();
+        let local = |c: &CellId| cells.binary_search(c).ok();
         let mut sets = DisjointSets::new(cells.len());
         for (i, c) in cells.iter().enumerate() {
-            for (k, n) in map.neighbours[*c as usize].iter().enumerate() {
+            for (k, n) in map.neighbours[*c].iter().enumerate() {
                 let Some((n, j)) = n.and_then(|n| Some((n, local(&n)?))) else {
                     continue;
                 };
-                let corners = map.triangle(*c as usize);
+                let corners = map.triangle(*c);
                 let (a, b) = (corners[k], corners[(k + 1) % 3]);
                 let apart = |q| self.shell(*c, q, 0.0) - self.shell(n, q, 0.0);
                 if apart(a.midpoint(b)).abs() < SHEET_MM {
@@ -118,10 +118,10 @@ impl<'a> Piece<'a> {
 }
 
 /// Whether a nearer support hides what lies beyond side `k` of a cell.
-fn hidden(map: &ViewMap, c: u32, k: usize) -> bool {
-    let Some(n) = map.neighbours[c as usize][k] else {
+fn hidden(map: &ViewMap, c: CellId, k: usize) -> bool {
+    let Some(n) = map.neighbours[c][k] else {
         return false;
     };
-    let (here, there) = (&map.cells[c as usize], &map.cells[n as usize]);
+    let (here, there) = (&map.cells[c], &map.cells[n]);
     here.support != there.support && there.support_depth < here.support_depth
 }

@@ -6,6 +6,7 @@ use super::forest::{CarveError, Repairs};
 use super::operand::Operand;
 use super::piece::Piece;
 use super::sound::{CRUMB_MM3, Sound, sound};
+use crate::index::{CellId, SupportId, ViewId};
 use crate::ladder::{Ladder, Rung};
 use crate::mesh::Solid;
 use crate::support::{Slab, Support};
@@ -63,9 +64,9 @@ const SUSPECT_MM: f64 = 0.5;
 pub struct Carved {
     pub whole: Solid,
     pub bare: Solid,
-    pub blocks: Vec<(usize, Solid)>,
+    pub blocks: Vec<(ViewId, Solid)>,
     /// Cells given up, by view.
-    pub given_up: Vec<(usize, Vec<u32>)>,
+    pub given_up: Vec<(ViewId, Vec<CellId>)>,
     pub repairs: Repairs,
     /// Index into [`WIDTHS`].
     pub widths: usize,
@@ -85,7 +86,7 @@ impl Carved {
 /// If the boolean library refuses an operand, or a solid is unsound at all of them.
 pub fn carve_support(
     field: &SupportField,
-    s: u32,
+    s: SupportId,
     views: &[Operand],
     first: usize,
 ) -> Result<Carved, CarveError> {
@@ -98,7 +99,7 @@ pub fn carve_support(
                 if has_widths {
                     carved.rungs.push(Rung {
                         ladder: Ladder::CarvingWidths,
-                        place: field.supports[s as usize].name.clone(),
+                        place: field.supports[s].name.clone(),
                         held: widths,
                         of: WIDTHS.len(),
                     });
@@ -113,11 +114,11 @@ pub fn carve_support(
 
 fn carve_at(
     field: &SupportField,
-    s: u32,
+    s: SupportId,
     views: &[Operand],
     widths: usize,
 ) -> Result<Carved, CarveError> {
-    let support = &field.supports[s as usize];
+    let support = &field.supports[s];
     let failed = |source| CarveError::Boolean {
         place: support.name.clone(),
         source,
@@ -129,7 +130,7 @@ fn carve_at(
         given_up: Vec::new(),
         repairs: Repairs::default(),
     };
-    for (v, operand) in views.iter().enumerate() {
+    for (v, operand) in ViewId::all(views.len()).zip(views) {
         work.take(s, v, operand, WIDTHS[widths]).map_err(failed)?;
     }
     let whole = work.united().map_err(failed)?;
@@ -139,7 +140,7 @@ fn carve_at(
 
 /// What one view puts on a support.
 struct OnSupport<'a> {
-    view: usize,
+    view: ViewId,
     operand: &'a Operand<'a>,
     /// Of a relief.
     slab: Option<Slab>,
@@ -151,7 +152,7 @@ struct Work<'a> {
     support: &'a Support,
     bare: Boolean,
     blocks: Vec<OnSupport<'a>>,
-    given_up: Vec<(usize, Vec<u32>)>,
+    given_up: Vec<(ViewId, Vec<CellId>)>,
     repairs: Repairs,
 }
 
@@ -159,8 +160,8 @@ impl<'a> Work<'a> {
     /// Adds what a view puts on support `s`, and carves out what stands before it.
     fn take(
         &mut self,
-        s: u32,
-        view: usize,
+        s: SupportId,
+        view: ViewId,
         operand: &'a Operand<'a>,
         Widths { bed, lap }: Widths,
     ) -> Result<(), BooleanError> {

@@ -5,6 +5,7 @@ use super::forest::{CarveError, Forest, Repairs};
 use super::operand::Operand;
 use super::sound::{Sound, sound};
 use super::support::{Carved, WIDTHS, carve_support};
+use crate::index::{SupportId, ViewId};
 use crate::ladder::{Ladder, Rung};
 use crate::mesh::Solid;
 use crate::viewmap::SupportField;
@@ -19,7 +20,7 @@ const UNIONS: usize = 16;
 pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveError> {
     let mut carved: Vec<Carved> = (0..field.supports.len() as u32)
         .into_par_iter()
-        .map(|s| carve_support(field, s, views, 0))
+        .map(|s| carve_support(field, SupportId(s), views, 0))
         .collect::<Result<_, _>>()?;
     let names: Vec<&str> = views.iter().map(Operand::name).collect();
     // Meshes have no widths to try.
@@ -48,7 +49,7 @@ pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveErr
         let Some(s) = suspects.filter(near).min_by_key(|s| carved[*s].widths) else {
             return Err(error);
         };
-        carved[s] = carve_support(field, s as u32, views, carved[s].widths + 1)?;
+        carved[s] = carve_support(field, SupportId::new(s), views, carved[s].widths + 1)?;
     }
     unreachable!("the last union ends it")
 }
@@ -57,7 +58,7 @@ pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveErr
 fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
-    let of_view = |v: usize| {
+    let of_view = |v: ViewId| {
         carved
             .iter()
             .flat_map(move |c| c.blocks.iter().filter(move |b| b.0 == v).map(|b| &b.1))
@@ -71,7 +72,7 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
                 || {
                     (0..views.len())
                         .into_par_iter()
-                        .map(|v| united(of_view(v), views[v]))
+                        .map(|v| united(of_view(ViewId::new(v)), views[v]))
                         .collect::<Result<Vec<_>, _>>()
                 },
             )

@@ -2,6 +2,7 @@
 
 use super::frustum::Frustum;
 use crate::geom::ImagePlane;
+use crate::index::{CellId, SupportId, ViewId};
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::sight::Sight;
 use crate::support::{Slab, SupportKind};
@@ -20,10 +21,10 @@ struct Reach {
 
 /// All cells of one view on one support.
 pub struct Claim {
-    pub view: u32,
-    pub support: u32,
+    pub view: ViewId,
+    pub support: SupportId,
     /// Rising.
-    pub cells: Vec<u32>,
+    pub cells: Vec<CellId>,
     plane: ImagePlane,
     /// Horizontal, from the eye to the support.
     normal: DVec3,
@@ -36,7 +37,7 @@ pub struct Claim {
 /// Two claims of different views, by index, and their cells that are in each other's way, rising.
 pub struct Meeting {
     pub claims: [usize; 2],
-    pub pairs: Vec<[u32; 2]>,
+    pub pairs: Vec<[CellId; 2]>,
 }
 
 /// What all views claim, by view, then support.
@@ -45,12 +46,13 @@ pub fn claims(sights: &[Sight]) -> Vec<Claim> {
         let mut cells = vec![Vec::new(); sight.image.field.supports.len()];
         for (c, group) in sight.groups.of_cell.iter().enumerate() {
             if let Some(g) = group {
-                cells[sight.groups.groups[*g as usize].support as usize].push(c as u32);
+                cells[sight.groups.groups[*g].support].push(CellId::new(c));
             }
         }
-        let filled = cells.into_iter().enumerate().filter(|(_, c)| !c.is_empty());
+        let filled = SupportId::all(cells.len()).zip(cells);
         filled
-            .filter_map(|(s, cells)| claim(sight, [v as u32, s as u32], cells))
+            .filter(|(_, cells)| !cells.is_empty())
+            .filter_map(|(s, cells)| claim(sight, ViewId::new(v), s, cells))
             .collect::<Vec<_>>()
     };
     sights
@@ -63,18 +65,23 @@ pub fn claims(sights: &[Sight]) -> Vec<Claim> {
         .collect()
 }
 
-fn claim(sight: &Sight, [view, support]: [u32; 2], cells: Vec<u32>) -> Option<Claim> {
-    let slab = sight.groups.slabs[support as usize]?;
+fn claim(
+    sight: &Sight,
+    view: ViewId,
+    support: SupportId,
+    cells: Vec<CellId>,
+) -> Option<Claim> {
+    let slab = sight.groups.slabs[support]?;
     let map = &sight.image.map;
     let plane = map.plane;
     let reach: Vec<Reach> = cells
         .iter()
         .map(|c| reach(&sight.image, &slab, support, *c))
         .collect();
-    let first = map.triangle(cells[0] as usize)[0];
+    let first = map.triangle(cells[0])[0];
     let (lo, hi) = cells
         .iter()
-        .flat_map(|c| map.triangle(*c as usize))
+        .flat_map(|c| map.triangle(*c))
         .fold((first, first), |(lo, hi), q| (lo.min(q), hi.max(q)));
     let rays = [lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
     let rays = rays.map(|q| plane.direction(q));
@@ -96,9 +103,9 @@ fn claim(sight: &Sight, [view, support]: [u32; 2], cells: Vec<u32>) -> Option<Cl
 
 /// Exact for a flat layer. Over a surface the nearest and the farthest point of the cell count, all over the cell: corners, and
 /// upright edges of the support that the cell may hold.
-fn reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> Reach {
+fn reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -> Reach {
     let from_eye = -slab.offset(image.map.plane.eye);
-    let flat = image.field.supports[support as usize]
+    let flat = image.field.supports[support]
         .layer
         .filter(|_| !slab.follows_surface());
     let (near, sight) = match flat {
@@ -113,16 +120,16 @@ fn reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> Reach {
 }
 
 /// Offsets behind the axis plane of the nearest and the farthest point the layer over the surface allows in a cell.
-fn surface_reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> (f64, f64) {
+fn surface_reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -> (f64, f64) {
     let (field, map) = (image.field, &image.map);
-    let corners = map.triangle(cell as usize);
+    let corners = map.triangle(cell);
     let mut found = (f64::INFINITY, f64::NEG_INFINITY);
     for q in corners {
         let (near, far) = image.layer_at(slab, support, q);
         found.0 = found.0.min(slab.offset(map.plane.point(q, near)));
         found.1 = found.1.max(slab.offset(map.plane.point(q, far)));
     }
-    let front = field.supports[support as usize]
+    let front = field.supports[support]
         .layer
         .map_or(0.0, |l| l.front);
     let sides = corners.map(|q| map.plane.direction(q).truncate());
@@ -132,7 +139,7 @@ fn surface_reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> (f64, f
         angles.iter().copied().fold(0.0, f64::max),
         angles.iter().copied().fold(0.0, f64::min),
     );
-    if let SupportKind::Pillar { profile, .. } = &field.supports[support as usize].kind {
+    if let SupportKind::Pillar { profile, .. } = &field.supports[support].kind {
         let held =
             |p: &&DVec2| (right..=left).contains(&middle.angle_to(**p - map.plane.eye.truncate()));
         let offsets = profile.iter().filter(held);
@@ -144,7 +151,7 @@ fn surface_reach(image: &Image, slab: &Slab, support: u32, cell: u32) -> (f64, f
 
 /// All cells of different views that are in each other's way: the volume of one meets the sight lines of the other.
 pub fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
-    let mut found: Vec<([usize; 2], Vec<[u32; 2]>)> = (0..claims.len())
+    let mut found: Vec<([usize; 2], Vec<[CellId; 2]>)> = (0..claims.len())
         .into_par_iter()
         .flat_map_iter(|a| blocked(sights, claims, a))
         .collect();
@@ -164,7 +171,7 @@ pub fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
 }
 
 /// What stands in the sight lines of claim `a`, claim by claim.
-fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec<[u32; 2]>)> {
+fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec<[CellId; 2]>)> {
     let seen = &claims[a];
     let others: Vec<usize> = (0..claims.len())
         .filter(|b| claims[*b].view != seen.view && seen.sight.meets(&claims[*b].volume))
@@ -175,8 +182,8 @@ fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec
     let tree = BoxTree::new(&image_boxes(sights, seen));
     let in_way = others.into_iter().filter_map(|b| {
         let pairs = cells_in_way(sights, seen, &tree, &claims[b]);
-        let ordered = |[x, y]: [u32; 2]| if a < b { [x, y] } else { [y, x] };
-        let pairs: Vec<[u32; 2]> = pairs.into_iter().map(ordered).collect();
+        let ordered = |[x, y]: [CellId; 2]| if a < b { [x, y] } else { [y, x] };
+        let pairs: Vec<[CellId; 2]> = pairs.into_iter().map(ordered).collect();
         (!pairs.is_empty()).then_some(([a.min(b), a.max(b)], pairs))
     });
     in_way.collect()
@@ -184,9 +191,9 @@ fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec
 
 /// The cells in the image, with the end of their sight as third coordinate.
 fn image_boxes(sights: &[Sight], claim: &Claim) -> Vec<Box3> {
-    let map = &sights[claim.view as usize].image.map;
-    let boxed = |(c, reach): (&u32, &Reach)| {
-        let [p, q, r] = map.triangle(*c as usize);
+    let map = &sights[claim.view].image.map;
+    let boxed = |(c, reach): (&CellId, &Reach)| {
+        let [p, q, r] = map.triangle(*c);
         Box3 {
             lo: p.min(q).min(r).extend(reach.sight),
             hi: p.max(q).max(r).extend(reach.sight),
@@ -196,7 +203,7 @@ fn image_boxes(sights: &[Sight], claim: &Claim) -> Vec<Box3> {
 }
 
 /// Pairs of cells of `seen` and of `other` where the volume of the latter meets the sight of the former.
-fn cells_in_way(sights: &[Sight], seen: &Claim, tree: &BoxTree, other: &Claim) -> Vec<[u32; 2]> {
+fn cells_in_way(sights: &[Sight], seen: &Claim, tree: &BoxTree, other: &Claim) -> Vec<[CellId; 2]> {
     let mut pairs = Vec::new();
     for (i, b) in other.cells.iter().enumerate() {
         let volume = other.volume_of(sights, i);
@@ -249,8 +256,8 @@ fn shadow(seen: &Claim, body: &Frustum) -> Option<Box3> {
 
 impl Claim {
     fn rays(&self, sights: &[Sight], i: usize) -> [DVec3; 3] {
-        let map = &sights[self.view as usize].image.map;
-        map.triangle(self.cells[i] as usize)
+        let map = &sights[self.view].image.map;
+        map.triangle(self.cells[i])
             .map(|q| self.plane.direction(q))
     }
 

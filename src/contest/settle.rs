@@ -2,6 +2,7 @@
 
 use super::claims::{Claim, Meeting, claims, meetings};
 use crate::geom::SQUARE_ARCMIN;
+use crate::index::CellId;
 use crate::sight::{Loss, Sight};
 use serde::Serialize;
 
@@ -70,9 +71,9 @@ pub fn settle(sights: &[Sight], rule: Contested) -> Result<Settlement, Vec<Refus
     settled.lost = losses(sights.len(), &claims, &meetings, &turn);
     for meeting in &meetings {
         let loser = meeting.claims[usize::from(turn[meeting.claims[0]] < turn[meeting.claims[1]])];
-        let lost_by = sights[claims[loser].view as usize].name();
+        let lost_by = sights[claims[loser].view].name();
         for side in 0..2 {
-            let view = claims[meeting.claims[side]].view as usize;
+            let view = claims[meeting.claims[side]].view;
             let contest = contest(sights, &claims, meeting, side, lost_by);
             settled.contests[view].push(contest);
         }
@@ -86,7 +87,7 @@ pub fn contested(sights: &[Sight]) -> Vec<f64> {
     let meetings = meetings(sights, &claims);
     let mut sums = vec![0.0; sights.len()];
     for (p, claim) in claims.iter().enumerate() {
-        sums[claim.view as usize] += contested_arcmin2(sights, &claims, &meetings, p);
+        sums[claim.view] += contested_arcmin2(sights, &claims, &meetings, p);
     }
     sums
 }
@@ -110,8 +111,8 @@ fn turns(sights: &[Sight], claims: &[Claim], meetings: &[Meeting], rule: Contest
 }
 
 /// The cells of side `side` of a meeting, rising.
-fn cells_of(meeting: &Meeting, side: usize) -> Vec<u32> {
-    let mut cells: Vec<u32> = meeting.pairs.iter().map(|p| p[side]).collect();
+fn cells_of(meeting: &Meeting, side: usize) -> Vec<CellId> {
+    let mut cells: Vec<CellId> = meeting.pairs.iter().map(|p| p[side]).collect();
     cells.sort_unstable();
     cells.dedup();
     cells
@@ -134,9 +135,9 @@ fn contested_arcmin2(
     arcmin2(sights, &claims[claim], &cells)
 }
 
-fn arcmin2(sights: &[Sight], claim: &Claim, cells: &[u32]) -> f64 {
-    let map = &sights[claim.view as usize].image.map;
-    let sr: f64 = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
+fn arcmin2(sights: &[Sight], claim: &Claim, cells: &[CellId]) -> f64 {
+    let map = &sights[claim.view].image.map;
+    let sr: f64 = cells.iter().map(|c| map.solid_angle(*c)).sum();
     sr * SQUARE_ARCMIN
 }
 
@@ -156,8 +157,8 @@ fn losses(views: usize, claims: &[Claim], meetings: &[Meeting], turn: &[usize]) 
                 continue;
             }
             let Claim { view, support, .. } = claims[other];
-            let kept = |cell: u32| {
-                let gone = &lost[view as usize];
+            let kept = |cell: CellId| {
+                let gone = &lost[view];
                 gone.binary_search_by_key(&cell, |l| l.cell).is_err()
             };
             let taken = meeting.pairs.iter().filter(|pair| kept(pair[1 - side]));
@@ -167,7 +168,7 @@ fn losses(views: usize, claims: &[Claim], meetings: &[Meeting], turn: &[usize]) 
                 support,
             }));
         }
-        let all = &mut lost[claims[p].view as usize];
+        let all = &mut lost[claims[p].view];
         all.extend(own);
         // Stable: the earliest pair of claims that takes a cell is named as its owner.
         all.sort_by_key(|l| l.cell);
@@ -186,12 +187,12 @@ fn contest(
     let own = &claims[meeting.claims[side]];
     let other = &claims[meeting.claims[1 - side]];
     let cells = cells_of(meeting, side);
-    let Sight { image, .. } = &sights[own.view as usize];
+    let Sight { image, .. } = &sights[own.view];
     let supports = image.field.supports;
     Contest {
-        with_view: sights[other.view as usize].name().to_owned(),
-        support: supports[own.support as usize].name.clone(),
-        with_support: supports[other.support as usize].name.clone(),
+        with_view: sights[other.view].name().to_owned(),
+        support: supports[own.support].name.clone(),
+        with_support: supports[other.support].name.clone(),
         arcmin2: arcmin2(sights, own, &cells),
         place_mm: place(sights, own, &cells),
         lost_by: lost_by.to_owned(),
@@ -199,17 +200,17 @@ fn contest(
 }
 
 /// The axis plane's point in the largest cell.
-fn place(sights: &[Sight], claim: &Claim, cells: &[u32]) -> [f64; 3] {
-    let Sight { image, groups, .. } = &sights[claim.view as usize];
+fn place(sights: &[Sight], claim: &Claim, cells: &[CellId]) -> [f64; 3] {
+    let Sight { image, groups, .. } = &sights[claim.view];
     let map = &image.map;
     let largest = cells.iter().copied().max_by(|a, b| {
-        let size = |c: u32| map.solid_angle(c as usize);
+        let size = |c: CellId| map.solid_angle(c);
         size(*a).total_cmp(&size(*b)).then(b.cmp(a))
     });
-    let (Some(cell), Some(slab)) = (largest, groups.slabs[claim.support as usize]) else {
+    let (Some(cell), Some(slab)) = (largest, groups.slabs[claim.support]) else {
         return [0.0; 3];
     };
-    let q = map.points_mean(map.cells[cell as usize].corners);
+    let q = map.points_mean(map.cells[cell].corners);
     let z = slab.plane(map.plane.direction(q), 0.0);
     (map.plane.point(q, z) + 0.0).to_array()
 }
@@ -217,7 +218,7 @@ fn place(sights: &[Sight], claim: &Claim, cells: &[u32]) -> [f64; 3] {
 /// A conflict that nobody is to win.
 fn refusal(sights: &[Sight], claims: &[Claim], meeting: &Meeting) -> Refusal {
     Refusal {
-        view: sights[claims[meeting.claims[0]].view as usize]
+        view: sights[claims[meeting.claims[0]].view]
             .name()
             .to_owned(),
         found: contest(sights, claims, meeting, 0, ""),

@@ -1,6 +1,7 @@
 //! Points of a surface as mixes of its vertices, as depths mix on a face.
 
 use crate::geom::barycentric;
+use crate::index::FaceId;
 use crate::viewmap::Target;
 use glam::DVec2;
 
@@ -44,8 +45,8 @@ pub fn vertex_anchor(vertex: u32) -> Anchor {
 }
 
 /// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
-pub fn anchor(target: &Target, face: usize, q: DVec2) -> (Anchor, f64) {
-    let [a, b, c] = target.image_of(face);
+pub fn anchor(target: &Target, face: FaceId, q: DVec2) -> (Anchor, f64) {
+    let [a, b, c] = target.image_of(face.at());
     let vertices = target.mesh.faces[face];
     let area = (b - a).perp_dot(c - a).abs();
     let heights = [b.distance(c), c.distance(a), a.distance(b)].map(|side| area / side);

@@ -2,6 +2,7 @@
 
 use super::anchor::anchor;
 use super::group::{Bound, Groups};
+use crate::index::{FacetId, GroupId, PointId};
 use crate::viewmap::Image;
 
 /// Relative depths (of an eye at infinity: `focal` times these) and weights that differ by less are the same: a thousandth of what
@@ -25,19 +26,19 @@ pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
     let (map, target) = (&image.map, &image.target);
     // One bound for each group, plane of the layer, point and set of vertices: cells that share a corner on a mesh vertex or
     // edge agree there.
-    type BoundKey = (u32, [Option<u32>; 2], u32, [u32; 3]);
+    type BoundKey = (GroupId, [Option<FacetId>; 2], PointId, [u32; 3]);
     let mut keyed: Vec<(BoundKey, Bound)> = Vec::new();
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
         else {
             continue;
         };
-        let Some(slab) = groups.slabs[support as usize] else {
+        let Some(slab) = groups.slabs[support] else {
             continue;
         };
         for (k, p) in cell.corners.into_iter().enumerate() {
-            let q = map.points[p as usize];
-            let (anchor, depth) = anchor(target, face as usize, q);
+            let q = map.points[p];
+            let (anchor, depth) = anchor(target, face, q);
             if anchor.is_free(target) {
                 continue;
             }
@@ -74,15 +75,15 @@ pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
 fn needed_first(bounds: Vec<Bound>, groups: &Groups) -> (Vec<Bound>, usize) {
     let alone = |b: &Bound| b.anchor.terms().count() == 1;
     let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0 as u32).next();
-    let mut bounded: Vec<(u32, u32)> = bounds
+    let mut bounded: Vec<(GroupId, u32)> = bounds
         .iter()
         .filter(|b| alone(b))
         .filter_map(|b| Some((b.group, vertex(b)?)))
         .collect();
     bounded.sort_unstable();
     let flat = |b: &Bound| {
-        let support = groups.groups[b.group as usize].support;
-        groups.slabs[support as usize].is_some_and(|slab| !slab.follows_surface())
+        let support = groups.groups[b.group].support;
+        groups.slabs[support].is_some_and(|slab| !slab.follows_surface())
     };
     let follows = |b: &Bound| {
         !alone(b)

@@ -2,6 +2,7 @@
 
 use super::bounds::bounds;
 use super::group::{Group, Groups};
+use crate::index::{CellId, GroupId, SupportId};
 use crate::mesh::face_components;
 use crate::support::Slab;
 use crate::viewmap::{Image, ViewMap};
@@ -9,7 +10,7 @@ use crate::viewmap::{Image, ViewMap};
 /// A support that a layer cuts through or leaves too thin, as one eye sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThinSupport {
-    pub support: u32,
+    pub support: SupportId,
     /// What is left behind the layer, millimetres; negative if it reaches through.
     pub behind_mm: f64,
 }
@@ -25,13 +26,13 @@ pub fn groups(image: &Image) -> Result<Groups, Vec<ThinSupport>> {
     let supports = field.supports.iter();
     let slabs: Vec<Option<Slab>> = supports.map(|s| Slab::new(s, map.plane.eye)).collect();
     let component = face_components(&target.mesh);
-    let carries = |c: usize| {
+    let carries = |c: CellId| {
         let cell = map.cells[c];
-        let support = cell.support.filter(|s| slabs[*s as usize].is_some())?;
+        let support = cell.support.filter(|s| slabs[*s].is_some())?;
         let part = cell.facet.map_or(0, |f| field.part(f));
-        Some((support, part, component[cell.face? as usize]))
+        Some((support, part, component[cell.face?]))
     };
-    let labels: Vec<Option<Label>> = (0..map.cells.len()).map(carries).collect();
+    let labels: Vec<Option<Label>> = CellId::all(map.cells.len()).map(carries).collect();
     let (groups, of_cell) = regions(map, &labels);
     let groups = Groups {
         groups,
@@ -59,14 +60,14 @@ pub fn with_bounds(groups: Groups, image: &Image) -> Groups {
 }
 
 /// The groups without some cells (rising), which are given up: what is left of them falls into connected regions anew.
-pub fn without(groups: &Groups, lost: &[u32], image: &Image) -> Groups {
-    let label = |c: usize| {
-        let kept = lost.binary_search(&(c as u32)).is_err();
+pub fn without(groups: &Groups, lost: &[CellId], image: &Image) -> Groups {
+    let label = |c: CellId| {
+        let kept = lost.binary_search(&c).is_err();
         let group = groups.of_cell[c].filter(|_| kept)?;
-        let group = &groups.groups[group as usize];
+        let group = &groups.groups[group];
         Some((group.support, group.part, group.component))
     };
-    let labels: Vec<Option<Label>> = (0..image.map.cells.len()).map(label).collect();
+    let labels: Vec<Option<Label>> = CellId::all(image.map.cells.len()).map(label).collect();
     let (found, of_cell) = regions(&image.map, &labels);
     let left = Groups {
         groups: found,
@@ -79,32 +80,32 @@ pub fn without(groups: &Groups, lost: &[u32], image: &Image) -> Groups {
 }
 
 /// Support, part of it, component of the model.
-type Label = (u32, u32, u32);
+type Label = (SupportId, u32, u32);
 
 /// Flood fill over equal labels.
-fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<u32>>) {
+fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<GroupId>>) {
     let mut of_cell = vec![None; labels.len()];
     let mut groups = Vec::new();
-    for seed in 0..labels.len() {
+    for seed in CellId::all(labels.len()) {
         let Some((support, part, component)) = labels[seed].filter(|_| of_cell[seed].is_none())
         else {
             continue;
         };
-        let id = groups.len() as u32;
+        let id = GroupId::new(groups.len());
         let mut cells = Vec::new();
-        let mut stack = vec![seed as u32];
+        let mut stack = vec![seed];
         of_cell[seed] = Some(id);
         while let Some(c) = stack.pop() {
             cells.push(c);
-            for n in map.neighbours[c as usize].iter().flatten() {
-                if of_cell[*n as usize].is_none() && labels[*n as usize] == labels[seed] {
-                    of_cell[*n as usize] = Some(id);
+            for n in map.neighbours[c].iter().flatten() {
+                if of_cell[*n].is_none() && labels[*n] == labels[seed] {
+                    of_cell[*n] = Some(id);
                     stack.push(*n);
                 }
             }
         }
         cells.sort_unstable();
-        let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c as usize)).sum();
+        let solid_angle_sr = cells.iter().map(|c| map.solid_angle(*c)).sum();
         groups.push(Group {
             support,
             part,
@@ -118,11 +119,11 @@ fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<u
 
 /// Supports that are left thinner than their cores, rising.
 fn thin_supports(image: &Image, groups: &Groups) -> Vec<ThinSupport> {
-    let mut used: Vec<u32> = groups.groups.iter().map(|g| g.support).collect();
+    let mut used: Vec<SupportId> = groups.groups.iter().map(|g| g.support).collect();
     used.sort_unstable();
     used.dedup();
-    let thin = |support: u32| {
-        let slab = groups.slabs[support as usize]?;
+    let thin = |support: SupportId| {
+        let slab = groups.slabs[support]?;
         // Through walls a layer leaves its core by itself.
         if !slab.is_carved() || slab.goes_through() {
             return None;
@@ -142,14 +143,14 @@ fn thin_supports(image: &Image, groups: &Groups) -> Vec<ThinSupport> {
 fn behind<'a>(
     image: &Image,
     slab: &Slab,
-    support: u32,
-    cells: impl Iterator<Item = &'a u32>,
+    support: SupportId,
+    cells: impl Iterator<Item = &'a CellId>,
 ) -> f64 {
     let (field, map) = (image.field, &image.map);
-    let left = |c: &u32| {
-        let q = map.points_mean(map.cells[*c as usize].corners);
+    let left = |c: &CellId| {
+        let q = map.points_mean(map.cells[*c].corners);
         let direction = map.plane.direction(q);
-        let surface = image.surface_in(slab, *c as usize, q);
+        let surface = image.surface_in(slab, *c, q);
         let thickness = field.thickness(support, map.plane.eye, direction);
         (surface.first + thickness - slab.bounds(direction, surface).1) * direction.length()
     };

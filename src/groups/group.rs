@@ -1,24 +1,25 @@
 //! Groups and bounds as values.
 
 use super::anchor::Anchor;
+use crate::index::{CellId, GroupId, SupportId};
 use crate::support::Slab;
 
 /// A connected region of the image on one part of a support, of one mesh component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    pub support: u32,
+    pub support: SupportId,
     /// Of the support's surface; see [`Support::part`](crate::support::Support::part).
     pub part: u32,
     pub component: u32,
     /// Cells of the view map, rising.
-    pub cells: Vec<u32>,
+    pub cells: Vec<CellId>,
     pub solid_angle_sr: f64,
 }
 
 /// `lower <= s / mu_g <= upper` at one point; `lower` may be 0: no near limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    pub group: u32,
+    pub group: GroupId,
     pub anchor: Anchor,
     pub lower: f64,
     pub upper: f64,
@@ -31,7 +32,7 @@ pub struct Bound {
 pub struct Groups {
     pub groups: Vec<Group>,
     /// Group of every cell of the map.
-    pub of_cell: Vec<Option<u32>>,
+    pub of_cell: Vec<Option<GroupId>>,
     /// The bounds at all corners of all cells; those from `needed` on follow from the others, but for rounding.
     pub bounds: Vec<Bound>,
     pub needed: usize,

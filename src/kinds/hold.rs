@@ -1,12 +1,16 @@
 //! What of a whole mesh is held, as bounds of one group.
 
 use crate::groups::{Bound, Group, Groups, anchor, vertex_anchor};
+use crate::index::{CellId, GroupId, PointId, SupportId};
 use crate::sight::Sight;
 use crate::support::Slab;
 use crate::viewmap::Image;
 
 /// What is seen stays this far before its support but at outlines, so that it is not lost in it, millimetres.
 const FLUSH_MM: f64 = 0.02;
+
+/// The only group.
+const ONLY: GroupId = GroupId(0);
 
 /// What of a whole mesh is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,12 +30,12 @@ pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, Split> {
     let Some(support) = one_surface(&groups.groups)? else {
         return Ok(sight);
     };
-    let Some(slab) = groups.slabs[support as usize] else {
+    let Some(slab) = groups.slabs[support] else {
         return Ok(sight);
     };
     let flush = slab.before_datum(FLUSH_MM);
     let kept = |b: &Bound| Bound {
-        group: 0,
+        group: ONLY,
         lower: if b.drawn || bounded == Bounded::Seen {
             b.lower
         } else {
@@ -48,15 +52,15 @@ pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, Split> {
     bounds.extend(follow.iter().map(kept));
     // Parts beside the support are there all the same: nothing of a whole mesh is cut off.
     let map = &image.map;
-    let of_cell: Vec<Option<u32>> = map.cells.iter().map(|c| c.face.map(|_| 0)).collect();
-    let cells: Vec<u32> = (0..of_cell.len() as u32)
-        .filter(|c| of_cell[*c as usize].is_some())
+    let of_cell: Vec<Option<GroupId>> = map.cells.iter().map(|c| c.face.map(|_| ONLY)).collect();
+    let cells: Vec<CellId> = CellId::all(of_cell.len())
+        .filter(|c| of_cell[*c].is_some())
         .collect();
     let group = Group {
         support,
         part: 0,
         component: 0,
-        solid_angle_sr: cells.iter().map(|c| map.solid_angle(*c as usize)).sum(),
+        solid_angle_sr: cells.iter().map(|c| map.solid_angle(*c)).sum(),
         cells,
     };
     let groups = Groups {
@@ -73,13 +77,13 @@ pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, Split> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// Its models lie before several supports.
-    Supports([u32; 2]),
+    Supports([SupportId; 2]),
     /// Its models lie before several parts of one.
-    Parts(u32),
+    Parts(SupportId),
 }
 
 /// The support that carries all groups, on one part of it; `None` if there are no groups.
-fn one_surface(groups: &[Group]) -> Result<Option<u32>, Split> {
+fn one_surface(groups: &[Group]) -> Result<Option<SupportId>, Split> {
     let Some(first) = groups.first() else {
         return Ok(None);
     };
@@ -96,21 +100,21 @@ fn one_surface(groups: &[Group]) -> Result<Option<u32>, Split> {
 fn free(sight: &Sight, slab: &Slab, flush: f64) -> Vec<Bound> {
     let Sight { image, groups, .. } = sight;
     let (target, map) = (&image.target, &image.map);
-    let mut found: Vec<((u32, [u32; 3]), Bound)> = Vec::new();
-    for (c, cell) in map.cells.iter().enumerate() {
+    let mut found: Vec<((PointId, [u32; 3]), Bound)> = Vec::new();
+    for (c, cell) in map.all() {
         let (Some(_), Some(face)) = (groups.of_cell[c], cell.face) else {
             continue;
         };
         for p in cell.corners {
-            let q = map.points[p as usize];
-            let (anchor, depth) = anchor(target, face as usize, q);
+            let q = map.points[p];
+            let (anchor, depth) = anchor(target, face, q);
             if !anchor.is_free(target) {
                 continue;
             }
             let surface = image.surface_in(slab, c, q);
             let far = slab.bounds(map.plane.direction(q), surface).1;
             let bound = Bound {
-                group: 0,
+                group: ONLY,
                 anchor,
                 lower: 0.0,
                 upper: flush * far / depth,
@@ -118,8 +122,8 @@ fn free(sight: &Sight, slab: &Slab, flush: f64) -> Vec<Bound> {
             };
             let mut terms = anchor.terms();
             let key = match (terms.next(), terms.next()) {
-                (Some((v, _)), None) => (u32::MAX, [v as u32; 3]),
-                _ => (p, target.mesh.faces[face as usize]),
+                (Some((v, _)), None) => (PointId(u32::MAX), [v as u32; 3]),
+                _ => (p, target.mesh.faces[face]),
             };
             found.push((key, bound));
         }
@@ -130,7 +134,7 @@ fn free(sight: &Sight, slab: &Slab, flush: f64) -> Vec<Bound> {
 }
 
 /// Far bounds of vertices that have none of their own: the support's far side less its core, where their rays meet it.
-fn hidden(image: &Image, slab: &Slab, support: u32, bounds: &[Bound]) -> Vec<Bound> {
+fn hidden(image: &Image, slab: &Slab, support: SupportId, bounds: &[Bound]) -> Vec<Bound> {
     let (target, map, field) = (&image.target, &image.map, image.field);
     let mut held = vec![false; target.mesh.vertices.len()];
     for bound in bounds {
@@ -146,7 +150,7 @@ fn hidden(image: &Image, slab: &Slab, support: u32, bounds: &[Bound]) -> Vec<Bou
         let leaves = surface + field.thickness(support, eye, direction);
         let upper = leaves - slab.core() / direction.length();
         let bound = Bound {
-            group: 0,
+            group: ONLY,
             anchor: vertex_anchor(*v as u32),
             lower: 0.0,
             upper: upper / target.depth[*v],

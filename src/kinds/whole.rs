@@ -16,6 +16,7 @@ use super::optimised::Optimised;
 use crate::carve::Operand;
 use crate::diagram::section::{Section, section};
 use crate::groups::{Bound, anchor};
+use crate::index::CellId;
 use crate::mesh::TriMesh;
 use crate::mimic::{
     Depths, Energy, FirstRows, Keeping, Orders, SolveError, TakingPart, depths, sheet_orders,
@@ -80,15 +81,15 @@ fn scaled_back(depths: Depths) -> Depths {
 /// What is seen of the mesh: nothing is clamped, because the mesh itself is built, and its bounds are looked at there.
 fn seen(image: &Image, sight: &Sight, depths: &Depths) -> Relief {
     let Image { target, map, .. } = image;
-    let of_cell = |(c, cell): (usize, &Cell)| {
+    let of_cell = |(c, cell): (CellId, &Cell)| {
         let (group, face) = (sight.groups.of_cell[c]?, cell.face?);
         Some(cell.corners.map(|p| {
-            let (anchor, depth) = anchor(target, face as usize, map.points[p as usize]);
-            depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize]
+            let (anchor, depth) = anchor(target, face, map.points[p]);
+            depth * anchor.relative_depth(&depths.s) / depths.mu[group]
         }))
     };
     Relief {
-        depth: map.cells.iter().enumerate().map(of_cell).collect(),
+        depth: map.all().map(of_cell).collect(),
         clamp_mm: 0.0,
         free: vec![[true; 3]; map.cells.len()],
     }
@@ -138,7 +139,7 @@ fn violation_mm(sight: &Sight, depths: &Depths) -> f64 {
     let Sight { image, groups, .. } = sight;
     let (target, eye) = (&image.target, image.view.eye);
     let outside = |bound: &Bound| {
-        let s = bound.anchor.relative_depth(&depths.s) / depths.mu[bound.group as usize];
+        let s = bound.anchor.relative_depth(&depths.s) / depths.mu[bound.group];
         let away = bound.anchor.terms();
         let away = away.map(|(v, _)| target.mesh.vertices[v].distance(eye));
         (bound.lower - s).max(s - bound.upper) * away.fold(0.0, f64::max)

@@ -7,7 +7,7 @@ use super::program::{Program, Row};
 use crate::mesh::DisjointSets;
 
 /// A part of a program with its places in the whole.
-pub struct Block {
+pub struct ProgramBlock {
     pub program: Program,
     /// Variable of the whole program of each of the block's.
     pub variables: Vec<u32>,
@@ -16,7 +16,7 @@ pub struct Block {
 }
 
 /// The blocks, by their first variables.
-pub fn blocks(program: &Program) -> Vec<Block> {
+pub fn blocks(program: &Program) -> Vec<ProgramBlock> {
     let mut sets = DisjointSets::new(program.variables);
     let mut join = |terms: &[(usize, f64)]| {
         terms
@@ -36,7 +36,7 @@ pub fn blocks(program: &Program) -> Vec<Block> {
         blocks[*b as usize].push(v as u32);
     }
     let numbered = |terms: &[(usize, f64)]| terms.iter().map(|(v, c)| (place[*v], *c)).collect();
-    let mut made: Vec<Block> = blocks
+    let mut made: Vec<ProgramBlock> = blocks
         .into_iter()
         .map(|variables| empty(program, variables))
         .collect();
@@ -77,8 +77,8 @@ pub fn blocks(program: &Program) -> Vec<Block> {
     made
 }
 
-fn empty(program: &Program, variables: Vec<u32>) -> Block {
-    Block {
+fn empty(program: &Program, variables: Vec<u32>) -> ProgramBlock {
+    ProgramBlock {
         program: Program {
             variables: variables.len(),
             quadratic: sprs::CsMat::zero((0, 0)),

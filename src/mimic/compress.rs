@@ -21,6 +21,7 @@ use super::lazily::MARGIN;
 use super::program::{Program, Quadratic, Row, RowKind};
 use super::solve::{SolveError, Solved, solve};
 use crate::groups::{Bound, Groups};
+use crate::index::SupportId;
 use crate::mesh::DisjointSets;
 use crate::sight::Sight;
 use crate::viewmap::Target;
@@ -110,10 +111,10 @@ struct Layers<'a> {
 
 impl<'a> Layers<'a> {
     fn new(target: &'a Target, groups: &'a Groups) -> Self {
-        let mut carriers: Vec<u32> = groups.groups.iter().map(|g| g.support).collect();
+        let mut carriers: Vec<SupportId> = groups.groups.iter().map(|g| g.support).collect();
         carriers.sort_unstable();
         carriers.dedup();
-        let slot = |s: u32| carriers.partition_point(|c| *c < s);
+        let slot = |s: SupportId| carriers.partition_point(|c| *c < s);
         let slots: Vec<usize> = groups.groups.iter().map(|g| slot(g.support)).collect();
         let mut used = vec![false; target.mesh.vertices.len()];
         let corners = target.mesh.faces.iter().flatten();
@@ -203,7 +204,7 @@ impl<'a> Layers<'a> {
     }
 
     fn slot(&self, bound: &Bound) -> usize {
-        self.slots[bound.group as usize]
+        self.slots[bound.group]
     }
 
     /// The shape with a mean of 1 in each block, which is what the middle has.
@@ -241,7 +242,7 @@ fn blocks(target: &Target, groups: &Groups, slots: &[usize], used: &[bool]) -> V
         sets.join(*b, *c);
     }
     for bound in &groups.bounds {
-        let support = n + slots[bound.group as usize];
+        let support = n + slots[bound.group];
         sets.join(bound.anchor.vertices[0], support as u32);
     }
     let vertices = |set: Vec<u32>| -> Vec<usize> {

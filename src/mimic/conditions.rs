@@ -17,6 +17,7 @@ use super::keeping::{FirstRows, Keeping};
 use super::ordering::Order;
 use super::program::RowKind;
 use crate::groups::{Anchor, Groups};
+use crate::index::GroupId;
 
 /// Orders of sheets that hardly part in the model hold to this share of their limit: less than the gap they keep in the result.
 const ORDER_SHARE: f64 = 0.01;
@@ -25,7 +26,7 @@ const ORDER_SHARE: f64 = 0.01;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnGroup {
     pub anchor: Anchor,
-    pub group: u32,
+    pub group: GroupId,
 }
 
 /// See the module; at least one side is there.
@@ -40,7 +41,7 @@ pub struct Condition {
 impl Condition {
     /// By how much depths break the condition, in log depth; negative inside.
     pub fn excess(&self, s: &[f64], mu: &[f64]) -> f64 {
-        let log = |side: OnGroup| (side.anchor.relative_depth(s) / mu[side.group as usize]).ln();
+        let log = |side: OnGroup| (side.anchor.relative_depth(s) / mu[side.group]).ln();
         self.plus.map_or(0.0, log) - self.minus.map_or(0.0, log) - self.limit
     }
 
@@ -67,7 +68,7 @@ impl Condition {
     }
 
     /// The two groups of an order between groups.
-    pub fn between_groups(&self) -> Option<[u32; 2]> {
+    pub fn between_groups(&self) -> Option<[GroupId; 2]> {
         let groups = [self.plus?.group, self.minus?.group];
         (groups[0] != groups[1]).then_some(groups)
     }

@@ -4,6 +4,7 @@ use super::conditions::Condition;
 use super::iterated::Iterated;
 use super::solve::Solved;
 use crate::groups::Groups;
+use crate::index::GroupId;
 use crate::viewmap::Image;
 
 /// The optimised depths of one view.
@@ -22,9 +23,9 @@ pub struct Depths {
 pub fn seen_solid_angles(image: &Image) -> Vec<f64> {
     let Image { target, map, .. } = image;
     let mut seen = vec![0.0; target.mesh.faces.len()];
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         if let Some(f) = cell.face {
-            seen[f as usize] += map.solid_angle(c);
+            seen[f] += map.solid_angle(c);
         }
     }
     seen
@@ -50,17 +51,17 @@ pub fn scales(
     groups: &Groups,
     conditions: &[Condition],
     s: &[f64],
-    free: impl Fn(u32) -> f64,
+    free: impl Fn(GroupId) -> f64,
 ) -> Vec<f64> {
     let mut mu = vec![f64::MIN_POSITIVE; groups.groups.len()];
     for bound in &groups.bounds {
-        let slot = &mut mu[bound.group as usize];
+        let slot = &mut mu[bound.group];
         *slot = slot.max(bound.anchor.relative_depth(s) / bound.upper);
     }
     // A group of free vertices only has nothing to be scaled to.
     let unbounded = mu.iter_mut().filter(|mu| **mu == f64::MIN_POSITIVE);
     unbounded.for_each(|mu| *mu = 1.0);
     let tied = conditions.iter().filter_map(Condition::between_groups);
-    tied.flatten().for_each(|g| mu[g as usize] = free(g));
+    tied.flatten().for_each(|g| mu[g] = free(g));
     mu
 }

@@ -190,21 +190,21 @@ fn wanted_change(target: &Target, focal: f64, face: usize, alpha: f64) -> DVec2 
 /// Both ends of all sides of cells at which the depth of the model jumps; a side counts as much as a row of pixels of the size `edge`.
 fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<Jump> {
     let mut jumps = Vec::new();
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         for (k, n) in map.neighbours[c].iter().enumerate() {
-            let Some(n) = n.filter(|n| *n as usize > c) else {
+            let Some(n) = n.filter(|n| *n > c) else {
                 continue;
             };
-            let (Some(f), Some(g)) = (cell.face, map.cells[n as usize].face) else {
+            let (Some(f), Some(g)) = (cell.face, map.cells[n].face) else {
                 continue;
             };
             if f == g {
                 continue;
             }
-            let ends = [k, (k + 1) % 3].map(|e| map.points[cell.corners[e] as usize]);
+            let ends = [k, (k + 1) % 3].map(|e| map.points[cell.corners[e]]);
             let weight = ends[0].distance(ends[1]) / edge / 2.0;
             for q in ends {
-                let [(a, za), (b, zb)] = [f, g].map(|f| anchor(target, f as usize, q));
+                let [(a, za), (b, zb)] = [f, g].map(|f| anchor(target, f, q));
                 let step = map.plane.focal * (zb / za).ln();
                 if step.abs() > JUMP {
                     let far = b.terms().map(|(v, w)| (v, -w));

@@ -13,6 +13,7 @@ use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::opening::{Opening, Tie};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::solve::{Method, SolveError, Solved};
+use crate::index::GroupId;
 use crate::laplacian::FaceGeometry;
 use crate::sight::Sight;
 use crate::viewmap::{Image, Target};
@@ -76,11 +77,11 @@ pub fn depths(
     // While conditions are checked the scales are the program's own: the closed form follows the worst bound, and then all others
     // seem broken.
     let depths = |u: &[f64]| {
-        let scale = |g: usize| match scaled {
-            true => (u[index.scale(g as u32)] * unit).exp(),
+        let scale = |g: GroupId| match scaled {
+            true => (u[index.scale(g)] * unit).exp(),
             false => 1.0,
         };
-        let mu: Vec<f64> = (0..groups.groups.len()).map(scale).collect();
+        let mu: Vec<f64> = GroupId::all(groups.groups.len()).map(scale).collect();
         (index.relative_depths(u, unit), mu)
     };
     let meaning = Meaning {
@@ -97,7 +98,7 @@ pub fn depths(
     }
     let (s, free) = depths(&u);
     let mu = match scaled {
-        true => scales(groups, &conditions.all, &s, |g| free[g as usize]),
+        true => scales(groups, &conditions.all, &s, |g| free[g]),
         false => free,
     };
     let solved = Solved {
@@ -166,8 +167,8 @@ impl Variables {
     }
 
     /// The variable of a group's scale.
-    fn scale(&self, group: u32) -> usize {
-        self.count + group as usize
+    fn scale(&self, group: GroupId) -> usize {
+        self.count + group.at()
     }
 
     /// Relative depths of all vertices near the result: where rows first touch their conditions.

@@ -14,8 +14,9 @@
 
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, Groups, anchor};
+use crate::index::{CellId, FaceId, GroupId, SupportId};
 use crate::sight::Sight;
-use crate::viewmap::{Target, ViewMap};
+use crate::viewmap::{Cell, Target, ViewMap};
 use glam::DVec2;
 
 /// Pairs nearer than this share of the model's depth (of the reading distance, for an eye at infinity) touch rather than overlap: an
@@ -30,9 +31,9 @@ const INSIDE: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Order {
     pub front: Anchor,
-    pub front_group: u32,
+    pub front_group: GroupId,
     pub back: Anchor,
-    pub back_group: u32,
+    pub back_group: GroupId,
     /// `depth_front / depth_back` in the model, below 1 (of a whole mesh a little more: see [`sheet_orders`](super::sheet_orders)).
     pub ratio: f64,
 }
@@ -85,9 +86,9 @@ fn at_sides(sight: &Sight) -> Vec<Order> {
     let Sight { image, groups, .. } = sight;
     let (target, map) = (&image.target, &image.map);
     let mut orders = Vec::new();
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         for (k, n) in map.neighbours[c].iter().enumerate() {
-            let Some(n) = n.filter(|n| *n as usize > c).map(|n| n as usize) else {
+            let Some(n) = n.filter(|n| *n > c) else {
                 continue;
             };
             let (Some(face), Some(other)) = (cell.face, map.cells[n].face) else {
@@ -100,8 +101,8 @@ fn at_sides(sight: &Sight) -> Vec<Order> {
                 continue;
             }
             for end in [k, (k + 1) % 3] {
-                let q = map.points[cell.corners[end] as usize];
-                let at = [face, other].map(|f| anchor(target, f as usize, q));
+                let q = map.points[cell.corners[end]];
+                let at = [face, other].map(|f| anchor(target, f, q));
                 orders.extend(order(at, [g, h], TOGETHER_MM).map(|o| o.1));
             }
         }
@@ -111,7 +112,7 @@ fn at_sides(sight: &Sight) -> Vec<Order> {
 
 /// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they are no
 /// farther `apart` than that, millimetres.
-pub(super) fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Option<(bool, Order)> {
+pub(super) fn order(at: [(Anchor, f64); 2], groups: [GroupId; 2], apart: f64) -> Option<(bool, Order)> {
     let [own, other] = at.map(|a| a.1);
     if (own - other).abs() <= apart {
         return None;
@@ -131,7 +132,7 @@ pub(super) fn order(at: [(Anchor, f64); 2], groups: [u32; 2], apart: f64) -> Opt
 /// The vertices of two edges, each pair rising.
 pub(super) type EdgePair = [[u32; 2]; 2];
 /// A vertex, its group and whether it is behind a face; how far, relatively; the order of both.
-pub(super) type VertexEvent = ((u32, u32, bool), f64, Order);
+pub(super) type VertexEvent = ((u32, GroupId, bool), f64, Order);
 
 struct Finder<'a> {
     target: &'a Target,
@@ -142,9 +143,9 @@ struct Finder<'a> {
 
 impl Finder<'_> {
     /// Vertices of one face that lie in the image of the other.
-    fn vertices_inside(&self, pair: [u32; 2]) -> Vec<VertexEvent> {
-        let faces = pair.map(|f| self.target.mesh.faces[f as usize]);
-        let images = pair.map(|f| self.target.image_of(f as usize));
+    fn vertices_inside(&self, pair: [FaceId; 2]) -> Vec<VertexEvent> {
+        let faces = pair.map(|f| self.target.mesh.faces[f]);
+        let images = pair.map(|f| self.target.image_of(f.at()));
         let mut events = Vec::new();
         for (own, other) in [(0, 1), (1, 0)] {
             let [a, b, c] = images[other];
@@ -167,9 +168,9 @@ impl Finder<'_> {
     }
 
     /// Crossings of an edge of one face with one of the other in the image.
-    fn edges_crossing(&self, pair: [u32; 2]) -> Vec<(EdgePair, Order)> {
-        let faces = pair.map(|f| self.target.mesh.faces[f as usize]);
-        let images = pair.map(|f| self.target.image_of(f as usize));
+    fn edges_crossing(&self, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> {
+        let faces = pair.map(|f| self.target.mesh.faces[f]);
+        let images = pair.map(|f| self.target.image_of(f.at()));
         let mut events = Vec::new();
         for (i, j) in (0..9).map(|n| (n / 3, n % 3)) {
             let mut sides = [(0, i), (1, j)].map(|(f, k)| {
@@ -192,35 +193,35 @@ impl Finder<'_> {
 
     /// The order of two faces on the ray `q` on every support that carries both, and whether the first is behind. The ray need
     /// not meet the support: where an outline cuts the polygon, its far corners hold the rest in order.
-    fn orders(&self, faces: [u32; 2], q: DVec2) -> Vec<(bool, Order)> {
+    fn orders(&self, faces: [FaceId; 2], q: DVec2) -> Vec<(bool, Order)> {
         let common = self.lookup.common(faces);
         if common.is_empty() {
             return Vec::new();
         }
-        let at = faces.map(|f| anchor(self.target, f as usize, q));
+        let at = faces.map(|f| anchor(self.target, f, q));
         let apart = self.apart * at[0].1.max(at[1].1);
         let orders = common.iter().filter_map(|g| order(at, *g, apart));
         orders.collect()
     }
 }
 
-fn seen_faces(map: &ViewMap) -> Vec<u32> {
-    let mut faces: Vec<u32> = map.cells.iter().filter_map(|c| c.face).collect();
+fn seen_faces(map: &ViewMap) -> Vec<FaceId> {
+    let mut faces: Vec<FaceId> = map.cells.iter().filter_map(|c| c.face).collect();
     faces.sort_unstable();
     faces.dedup();
     faces
 }
 
 /// Pairs of faces whose boxes in the image overlap, each once: a sweep over their left ends.
-pub(super) fn overlapping(target: &Target, faces: &[u32]) -> Vec<[u32; 2]> {
-    let image_box = |f: &u32| {
-        let [a, b, c] = target.image_of(*f as usize);
+pub(super) fn overlapping(target: &Target, faces: &[FaceId]) -> Vec<[FaceId; 2]> {
+    let image_box = |f: &FaceId| {
+        let [a, b, c] = target.image_of(f.at());
         (a.min(b).min(c), a.max(b).max(c), *f)
     };
-    let mut boxes: Vec<(DVec2, DVec2, u32)> = faces.iter().map(image_box).collect();
+    let mut boxes: Vec<(DVec2, DVec2, FaceId)> = faces.iter().map(image_box).collect();
     boxes.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.2.cmp(&b.2)));
     let mut pairs = Vec::new();
-    let mut open: Vec<(DVec2, DVec2, u32)> = Vec::new();
+    let mut open: Vec<(DVec2, DVec2, FaceId)> = Vec::new();
     for next in boxes {
         open.retain(|o| o.1.x > next.0.x);
         let across = open.iter().filter(|o| o.0.y < next.1.y && next.0.y < o.1.y);
@@ -234,28 +235,28 @@ pub(super) fn overlapping(target: &Target, faces: &[u32]) -> Vec<[u32; 2]> {
 /// The group of a face on a support.
 struct FaceGroups {
     /// `(face, support, group)`, sorted.
-    entries: Vec<(u32, u32, u32)>,
+    entries: Vec<(FaceId, SupportId, GroupId)>,
 }
 
 impl FaceGroups {
     fn new(map: &ViewMap, groups: &Groups) -> Self {
-        let entry = |(c, cell): (usize, &crate::viewmap::Cell)| {
+        let entry = |(c, cell): (CellId, &Cell)| {
             Some((cell.face?, cell.support?, groups.of_cell[c]?))
         };
-        let mut entries: Vec<_> = map.cells.iter().enumerate().filter_map(entry).collect();
+        let mut entries: Vec<_> = map.all().filter_map(entry).collect();
         entries.sort_unstable();
         entries.dedup();
         Self { entries }
     }
 
-    fn of(&self, face: u32) -> &[(u32, u32, u32)] {
+    fn of(&self, face: FaceId) -> &[(FaceId, SupportId, GroupId)] {
         let first = self.entries.partition_point(|e| e.0 < face);
         let past = self.entries.partition_point(|e| e.0 <= face);
         &self.entries[first..past]
     }
 
     /// The groups of two faces on every support that carries both.
-    fn common(&self, [a, b]: [u32; 2]) -> Vec<[u32; 2]> {
+    fn common(&self, [a, b]: [FaceId; 2]) -> Vec<[GroupId; 2]> {
         let mut pairs = Vec::new();
         for x in self.of(a) {
             let same = self.of(b).iter().filter(|y| x.1 == y.1);

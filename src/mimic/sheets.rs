@@ -7,6 +7,7 @@
 use super::ordering::{EdgePair, Order, Orders, VertexEvent, order, overlapping, sorted};
 use crate::geom::orient;
 use crate::groups::{Anchor, vertex_anchor};
+use crate::index::{FaceId, GroupId};
 use crate::viewmap::Target;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -19,15 +20,17 @@ const GAP_SHARE: f64 = 0.02;
 const REACH: f64 = 1e-9;
 /// Edges whose directions differ by less (the sine of the angle) run side by side: their ends tell.
 const PARALLEL: f64 = 1e-12;
+/// The group of a whole mesh.
+const ONLY: GroupId = GroupId(0);
 /// Pairs of faces that one task looks at.
 const PAIRS: usize = 1 << 14;
 
 /// Orders at all events of a whole mesh that is one group: all sheets on every ray. In the result sheets are to stay `gap_mm`
 /// apart, along the forward axis, but need not keep more than [`GAP_SHARE`] of what parts them in the model.
 pub fn sheet_orders(target: &Target, gap_mm: f64) -> Orders {
-    let faces: Vec<u32> = (0..target.mesh.faces.len() as u32).collect();
+    let faces: Vec<FaceId> = FaceId::all(target.mesh.faces.len()).collect();
     let pairs = overlapping(target, &faces);
-    let events = |pairs: &[[u32; 2]]| {
+    let events = |pairs: &[[FaceId; 2]]| {
         let (mut vertices, mut edges) = (Vec::new(), Vec::new());
         for pair in pairs {
             vertices.extend(vertices_inside(target, *pair));
@@ -47,9 +50,9 @@ pub fn sheet_orders(target: &Target, gap_mm: f64) -> Orders {
 }
 
 /// Vertices of one face strictly inside the image of the other.
-fn vertices_inside(target: &Target, pair: [u32; 2]) -> Vec<VertexEvent> {
-    let faces = pair.map(|f| target.mesh.faces[f as usize]);
-    let images = pair.map(|f| target.image_of(f as usize));
+fn vertices_inside(target: &Target, pair: [FaceId; 2]) -> Vec<VertexEvent> {
+    let faces = pair.map(|f| target.mesh.faces[f]);
+    let images = pair.map(|f| target.image_of(f.at()));
     let mut events = Vec::new();
     for (own, other) in [(0, 1), (1, 0)] {
         let [a, b, c] = images[other];
@@ -61,17 +64,17 @@ fn vertices_inside(target: &Target, pair: [u32; 2]) -> Vec<VertexEvent> {
             }
             let there = mixed(target, faces[other], turns.map(f64::abs));
             let here = (vertex_anchor(v), target.depth[v as usize]);
-            let event = order([here, there], [0; 2], TOUCHING * there.1);
-            events.extend(event.map(|(behind, order)| ((v, 0, behind), -order.ratio, order)));
+            let event = order([here, there], [ONLY; 2], TOUCHING * there.1);
+            events.extend(event.map(|(behind, order)| ((v, ONLY, behind), -order.ratio, order)));
         }
     }
     events
 }
 
 /// Crossings of an edge of one face with one of the other in the image.
-fn edges_crossing(target: &Target, pair: [u32; 2]) -> Vec<(EdgePair, Order)> {
+fn edges_crossing(target: &Target, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> {
     let edges = pair.map(|f| {
-        let face = target.mesh.faces[f as usize];
+        let face = target.mesh.faces[f];
         [0, 1, 2].map(|k| {
             let (a, b) = (face[k], face[(k + 1) % 3]);
             [a.min(b), a.max(b)]
@@ -90,7 +93,7 @@ fn edges_crossing(target: &Target, pair: [u32; 2]) -> Vec<(EdgePair, Order)> {
                 let [a, b] = sides[k];
                 mixed(target, [a, b, b], [1.0 - shares[k], shares[k], 0.0])
             });
-            let event = order(at, [0; 2], TOUCHING * at[0].1);
+            let event = order(at, [ONLY; 2], TOUCHING * at[0].1);
             events.extend(event.map(|(_, order)| (sides, order)));
         }
     }

@@ -1,6 +1,6 @@
 //! Solving a program: the only module that names `clarabel`.
 
-use super::blocks::{Block, blocks};
+use super::blocks::{ProgramBlock, blocks};
 use super::certificate::{Optimality, optimality};
 use super::conic::conic;
 use super::program::{Program, RowKind};
@@ -106,7 +106,7 @@ pub fn solve_again(
     before: &Solution,
     new_rows: usize,
 ) -> Result<Solution, SolveError> {
-    let changed = |b: &Block| b.rows.last().is_some_and(|r| *r as usize >= new_rows);
+    let changed = |b: &ProgramBlock| b.rows.last().is_some_and(|r| *r as usize >= new_rows);
     solve_where(program, before.clone(), &changed)
 }
 
@@ -114,12 +114,12 @@ pub fn solve_again(
 fn solve_where(
     program: &Program,
     mut solution: Solution,
-    wanted: &dyn Fn(&Block) -> bool,
+    wanted: &dyn Fn(&ProgramBlock) -> bool,
 ) -> Result<Solution, SolveError> {
     let blocks = blocks(program);
     let count = blocks.len();
-    let todo: Vec<Block> = blocks.into_iter().filter(wanted).collect();
-    let solved: Vec<Part> = todo.par_iter().map(solve_block).collect::<Result<_, _>>()?;
+    let todo: Vec<ProgramBlock> = blocks.into_iter().filter(wanted).collect();
+    let solved: Vec<SolvedBlock> = todo.par_iter().map(solve_block).collect::<Result<_, _>>()?;
     solution.z.resize(program.rows.len(), 0.0);
     for (block, part) in todo.iter().zip(&solved) {
         let place = |to: &mut [f64], at: &[u32], from: &[f64]| {
@@ -142,7 +142,7 @@ fn solve_where(
 }
 
 /// The solution of one block.
-struct Part {
+struct SolvedBlock {
     u: Vec<f64>,
     z: Vec<f64>,
     y: Vec<f64>,
@@ -205,7 +205,7 @@ impl Standard {
     }
 }
 
-fn solve_block(block: &Block) -> Result<Part, SolveError> {
+fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
     let program = &block.program;
     let Standard {
         p,
@@ -222,7 +222,7 @@ fn solve_block(block: &Block) -> Result<Part, SolveError> {
     let (y, z) = solution.z.split_at(program.equalities.len());
     let z = &z[program.factor.len()..][..program.rows.len()];
     match solution.status {
-        SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(Part {
+        SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(SolvedBlock {
             u: solution.x[..program.variables].to_vec(),
             z: z.to_vec(),
             y: y.to_vec(),

@@ -27,18 +27,18 @@ pub fn relief(sight: &Sight, depths: &Depths) -> Relief {
         map.cells.len()
     };
     let mut no_layer = vec![[false; 3]; marked];
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
         else {
             continue;
         };
-        let Some(slab) = groups.slabs[support as usize] else {
+        let Some(slab) = groups.slabs[support] else {
             continue;
         };
         depth[c] = Some([0, 1, 2].map(|k| {
-            let q = map.points[cell.corners[k] as usize];
-            let (anchor, model_depth) = anchor(target, face as usize, q);
-            let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group as usize];
+            let q = map.points[cell.corners[k]];
+            let (anchor, model_depth) = anchor(target, face, q);
+            let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group];
             if anchor.is_free(target) {
                 no_layer[c][k] = true;
                 return free;

@@ -2,8 +2,9 @@
 
 use super::fusion::PatchDepths;
 use super::options::{Prefer, StepOptions};
-use super::patches::Patches;
+use super::patches::{PatchId, Patches};
 use crate::groups::Anchor;
+use crate::index::FaceId;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::mimic::{Depths, Opening, Order, Step, Tie};
 use crate::viewmap::{Image, Target, ViewMap};
@@ -40,7 +41,7 @@ pub struct Cut {
 }
 
 /// A corner of a patch.
-type Corner = (u32, u8);
+type Corner = (PatchId, u8);
 
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
 /// allowed, or in the wrong order, so that the program has a solution to begin with.
@@ -61,7 +62,7 @@ pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64)
     let (corners, start) = bundles.numbered();
     let mut vertices = vec![0; start.len()];
     for (p, c) in corners.iter().enumerate() {
-        (0..3).for_each(|k| vertices[c[k] as usize] = vertex((p as u32, k as u8)) as u32);
+        (0..3).for_each(|k| vertices[c[k] as usize] = vertex((PatchId::new(p), k as u8)) as u32);
     }
     let steps = steps_between(target, patches, &pairs, &corners, &start, least_mm);
     let mesh = TriMesh {
@@ -73,7 +74,7 @@ pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64)
     };
     let mut map = map.clone();
     for (cell, patch) in map.cells.iter_mut().zip(&patches.of_cell) {
-        cell.face = *patch;
+        cell.face = patch.map(|p| FaceId(p.0));
     }
     Cut {
         target: target.cut(mesh, &vertices),
@@ -103,8 +104,8 @@ impl Cut {
             Prefer::Camouflage => -PREFERENCE,
         };
         let mut push = vec![0.0; self.start.len()];
-        let mut pull = |patch: u32, weights: &[f64; 3], force: f64| {
-            for (v, w) in self.corners[patch as usize].iter().zip(weights) {
+        let mut pull = |patch: PatchId, weights: &[f64; 3], force: f64| {
+            for (v, w) in self.corners[patch].iter().zip(weights) {
                 push[*v as usize] += force * w;
             }
         };
@@ -112,7 +113,7 @@ impl Cut {
             let [i, j] = seam.patches;
             let [first, second] = seam
                 .patches
-                .map(|p| self.corners[p as usize].map(|v| self.start[v as usize]));
+                .map(|p| self.corners[p].map(|v| self.start[v as usize]));
             for (end, [a, b]) in seam.ends.iter().enumerate() {
                 let first_is_near = seam.jump(end, &first, &second) < 0.0;
                 let force = sign * seam.length_mm / 2.0 * if first_is_near { 1.0 } else { -1.0 };
@@ -149,7 +150,7 @@ fn steps_between(
     start: &[f64],
     least_mm: f64,
 ) -> Vec<Step> {
-    let at = |(p, k): Corner| corners[p as usize][k as usize];
+    let at = |(p, k): Corner| corners[p][usize::from(k)];
     let step = |(a, b): &(Corner, Corner)| {
         let (v, w) = (at(*a), at(*b));
         let (near, far) = if start[v as usize] < start[w as usize] {
@@ -159,7 +160,7 @@ fn steps_between(
         };
         let (p, k) = *a;
         // At the layer's front a step must be largest in log depth.
-        let front = patches.patches[p as usize].room[k as usize].0.exp();
+        let front = patches.patches[p].room[usize::from(k)].0.exp();
         let z = target.depth[vertex(target, patches, *a) as usize];
         Step {
             near,
@@ -180,16 +181,16 @@ fn steps_between(
 
 /// The highest step allowed between two corners, log depth.
 fn highest(patches: &Patches, a: Corner, b: Corner) -> f64 {
-    let of = |(p, _): Corner| patches.patches[p as usize].highest;
+    let of = |(p, _): Corner| patches.patches[p].highest;
     of(a).min(of(b))
 }
 
 fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> u32 {
-    target.mesh.faces[patches.patches[p as usize].face as usize][k as usize]
+    target.mesh.faces[patches.patches[p].face][usize::from(k)]
 }
 
 fn index((p, k): Corner) -> u32 {
-    3 * p + u32::from(k)
+    3 * p.0 + u32::from(k)
 }
 
 /// Corners with the mean depth of each bundle.
@@ -285,10 +286,10 @@ fn corner_pairs(target: &Target, patches: &Patches) -> Vec<(Corner, Corner)> {
     let mut pairs = Vec::new();
     for seam in &patches.seams {
         let [a, b] = seam.patches;
-        if patches.patches[a as usize].group != patches.patches[b as usize].group {
+        if patches.patches[a].group != patches.patches[b].group {
             continue;
         }
-        let corners = |p: u32| (0..3u8).map(move |k| (p, k));
+        let corners = |p: PatchId| (0..3u8).map(move |k| (p, k));
         for c in corners(a) {
             let same = |d: &Corner| vertex(target, patches, c) == vertex(target, patches, *d);
             pairs.extend(corners(b).find(same).map(|d| (c, d)));
@@ -305,7 +306,7 @@ fn orders(patches: &Patches, corners: &[[u32; 3]]) -> Vec<Order> {
     for seam in &patches.seams {
         for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
             let end = |k: usize| {
-                let patch = seam.patches[k] as usize;
+                let patch = seam.patches[k];
                 let anchor = Anchor {
                     vertices: corners[patch],
                     weights: weights[k],
@@ -339,7 +340,7 @@ fn ties(patches: &Patches, corners: &[[u32; 3]], start: &[f64], least: f64) -> V
     for seam in &patches.seams {
         for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
             let side = |k: usize, sign: f64| {
-                let vertices = corners[seam.patches[k] as usize];
+                let vertices = corners[seam.patches[k]];
                 (0..3).map(move |i| (vertices[i], sign * weights[k][i]))
             };
             let mut tie: Tie = side(0, 1.0).chain(side(1, -1.0)).collect();

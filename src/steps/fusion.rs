@@ -79,10 +79,10 @@ impl<'a> Functional<'a> {
         let first = |at: usize| {
             patches
                 .seams
-                .partition_point(|s| (s.patches[0] as usize) < at)
+                .partition_point(|s| s.patches[0].at() < at)
         };
         let seams = &patches.seams[first(range.start)..first(range.end)];
-        let local = |s: &Seam| s.patches.map(|p| p as usize - range.start);
+        let local = |s: &Seam| s.patches.map(|p| p.at() - range.start);
         let mut starts = vec![0u32; range.len() + 1];
         seams
             .iter()
@@ -266,7 +266,7 @@ impl<'a> Functional<'a> {
     }
 
     fn local(&self, s: &Seam) -> [usize; 2] {
-        s.patches.map(|p| p as usize - self.range.start)
+        s.patches.map(|p| p.at() - self.range.start)
     }
 
     fn incident(&self, i: usize) -> &[u32] {

@@ -2,7 +2,7 @@
 
 use super::fusion::PatchDepths;
 use super::options::UNSEEN_RAD;
-use super::patches::{Patches, Seam};
+use super::patches::{PatchId, Patches, Seam};
 use crate::geom::parallax;
 use crate::groups::{Anchor, anchor};
 use crate::mesh::DisjointSets;
@@ -54,7 +54,7 @@ pub struct StepSummary {
 /// The number of tear lines: pairs of pieces that meet in a step.
 pub fn count(target: &Target, patches: &Patches, field: &PatchDepths) -> usize {
     let step = |s: &Seam, end: usize| {
-        let [a, b] = s.patches.map(|p| &field[p as usize]);
+        let [a, b] = s.patches.map(|p| &field[p]);
         s.jump(end, a, b).abs() * patches.depth
     };
     meetings(target, patches, |n| {
@@ -70,11 +70,11 @@ fn meetings(target: &Target, patches: &Patches, torn: impl Fn(usize) -> bool) ->
         tears(target, patches).map(|t| t.0).partition(|n| torn(*n));
     for n in closed {
         let [a, b] = patches.seams[n].patches;
-        sets.join(a, b);
+        sets.join(a.0, b.0);
     }
     let mut pairs: Vec<[u32; 2]> = open
         .iter()
-        .map(|n| patches.seams[*n].patches.map(|p| sets.root(p)))
+        .map(|n| patches.seams[*n].patches.map(|p| sets.root(p.0)))
         .filter(|[a, b]| a != b)
         .map(|[a, b]| [a.min(b), a.max(b)])
         .collect();
@@ -85,7 +85,7 @@ fn meetings(target: &Target, patches: &Patches, torn: impl Fn(usize) -> bool) ->
 
 /// Seams where the model hangs together, with their indices: no contours, however near their sheets are.
 fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (usize, &'a Seam)> {
-    let face = |p: u32| target.mesh.faces[patches.patches[p as usize].face as usize];
+    let face = |p: PatchId| target.mesh.faces[patches.patches[p].face];
     let hang_together = move |s: &Seam| {
         let [a, b] = s.patches.map(face);
         s.hangs_together() && a.iter().any(|v| b.contains(v))
@@ -103,13 +103,13 @@ pub fn lines(
 ) -> (Vec<StepLine>, StepSummary) {
     let Image { target, map, .. } = image;
     // Distance in the model, and relative depth.
-    let place = |p: u32, q: DVec2| {
-        let patch = &patches.patches[p as usize];
-        let (Anchor { weights, .. }, z) = anchor(target, patch.face as usize, q);
-        let vertices = corners[p as usize];
+    let place = |p: PatchId, q: DVec2| {
+        let patch = &patches.patches[p];
+        let (Anchor { weights, .. }, z) = anchor(target, patch.face, q);
+        let vertices = corners[p];
         let s = Anchor { vertices, weights }.relative_depth(&depths.s);
         let ray = map.plane.direction(q).length();
-        (z * ray, s / depths.mu[patch.group as usize])
+        (z * ray, s / depths.mu[patch.group])
     };
     let focal = map.plane.focal;
     let mut lines = Vec::new();
@@ -126,7 +126,7 @@ pub fn lines(
             parallax: sides.map(|[a, b]| parallax(a, b).abs() * focal * focal),
             length_mm: s.length_mm,
         };
-        let cut = s.patches.map(|p| corners[p as usize]);
+        let cut = s.patches.map(|p| corners[p]);
         let together = stay_together(target, patches, s.patches, cut);
         if !together && line.height_mm.iter().any(|h| *h > STEP_MM) {
             torn[n] = true;
@@ -143,8 +143,8 @@ pub fn lines(
 }
 
 /// Whether two patches share all vertices of the cut mesh that they shared before.
-fn stay_together(target: &Target, patches: &Patches, pair: [u32; 2], cut: [[u32; 3]; 2]) -> bool {
-    let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p as usize].face as usize]);
+fn stay_together(target: &Target, patches: &Patches, pair: [PatchId; 2], cut: [[u32; 3]; 2]) -> bool {
+    let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p].face]);
     let mut places = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
     places.all(|(k, l)| a[k] != b[l] || cut[0][k] == cut[1][l])
 }

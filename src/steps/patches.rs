@@ -3,6 +3,7 @@
 use super::options::{StepLimits, UNSEEN_RAD};
 use crate::geom::ImagePlane;
 use crate::groups::{Anchor, Groups, anchor};
+use crate::index::{CellId, FaceId, GroupId, SupportId, indices};
 use crate::laplacian::FaceGeometry;
 use crate::mimic::TOGETHER_MM;
 use crate::sight::Sight;
@@ -10,12 +11,17 @@ use crate::viewmap::{Image, Target, ViewMap};
 use glam::DVec2;
 use std::ops::Range;
 
+indices! {
+    /// A patch of a view.
+    PatchId
+}
+
 /// The part of a face that is seen on one group.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    pub face: u32,
-    pub group: u32,
-    pub support: u32,
+    pub face: FaceId,
+    pub group: GroupId,
+    pub support: SupportId,
     /// Its solid angle times the square of the model's mean depth.
     pub seen_mm2: f64,
     /// `sum over k of tilt_k (y_(k+1) - y_(k+2))^2` is what the patch costs: its seen area times `tan^2 theta`, square millimetres.
@@ -40,7 +46,7 @@ pub struct PatchPoint {
 /// A line along which two patches meet in the image.
 #[derive(Clone, Debug)]
 pub struct Seam {
-    pub patches: [u32; 2],
+    pub patches: [PatchId; 2],
     /// Weights of both patches' corners at both ends.
     pub ends: [[[f64; 3]; 2]; 2],
     /// At both ends: 0 where the patches hang together; else the log of the second's depth in the model over the first's.
@@ -58,7 +64,7 @@ pub struct Seam {
 /// A side where the relief ends at another support's.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
-    pub patch: u32,
+    pub patch: PatchId,
     /// Whether its own support is the nearer one.
     pub near: bool,
     pub length_mm: f64,
@@ -94,7 +100,7 @@ pub fn mixed(weights: &[f64; 3], corners: &[f64; 3]) -> f64 {
 pub struct Patches {
     pub patches: Vec<Patch>,
     /// Patch of every cell of the map.
-    pub of_cell: Vec<Option<u32>>,
+    pub of_cell: Vec<Option<PatchId>>,
     /// Rising by patches.
     pub seams: Vec<Seam>,
     pub rims: Vec<Rim>,
@@ -119,15 +125,15 @@ impl Patches {
             .iter()
             .map(|(_, group, face)| patch(sight, *group, *face))
             .collect();
-        for (c, patch) in of_cell.iter().enumerate() {
+        for (c, patch) in CellId::all(of_cell.len()).zip(&of_cell) {
             let Some(i) = patch else { continue };
-            add_cell(&mut patches[*i as usize], sight, c);
+            add_cell(&mut patches[*i], sight, c);
         }
         for p in &mut patches {
             p.highest = highest(limits, target, map.plane.focal, p);
             p.seen_mm2 *= scale * scale;
-            let counted = p.seen_mm2 * target.face_weight(p.face as usize).powi(2);
-            p.tilt = tilt(target, &map.plane, &geometry, p.face as usize, counted);
+            let counted = p.seen_mm2 * target.face_weight(p.face.at()).powi(2);
+            p.tilt = tilt(target, &map.plane, &geometry, p.face.at(), counted);
         }
         let mut widths: Vec<f64> = patches
             .iter()
@@ -148,8 +154,8 @@ impl Patches {
     }
 
     /// Patches of every support, which stand together, with its cells.
-    pub fn by_support(&self) -> Vec<(Range<usize>, Vec<u32>)> {
-        let mut ranges: Vec<(Range<usize>, Vec<u32>)> = Vec::new();
+    pub fn by_support(&self) -> Vec<(Range<usize>, Vec<CellId>)> {
+        let mut ranges: Vec<(Range<usize>, Vec<CellId>)> = Vec::new();
         let mut of_patch = Vec::with_capacity(self.patches.len());
         for (i, p) in self.patches.iter().enumerate() {
             if i == 0 || self.patches[i - 1].support != p.support {
@@ -159,9 +165,9 @@ impl Patches {
             ranges[last].0.end = i + 1;
             of_patch.push(last);
         }
-        for (c, patch) in self.of_cell.iter().enumerate() {
+        for (c, patch) in CellId::all(self.of_cell.len()).zip(&self.of_cell) {
             if let Some(p) = patch {
-                ranges[of_patch[*p as usize]].1.push(c as u32);
+                ranges[of_patch[*p]].1.push(c);
             }
         }
         ranges
@@ -169,44 +175,44 @@ impl Patches {
 }
 
 /// Support, group and face of a patch.
-type PatchKey = (u32, u32, u32);
+type PatchKey = (SupportId, GroupId, FaceId);
 
 /// The keys of all patches, rising, and the patch of every cell.
-fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<PatchKey>, Vec<Option<u32>>) {
-    let key = |c: usize| {
+fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<PatchKey>, Vec<Option<PatchId>>) {
+    let key = |c: CellId| {
         let group = groups.of_cell[c]?;
         Some((
-            groups.groups[group as usize].support,
+            groups.groups[group].support,
             group,
             map.cells[c].face?,
         ))
     };
-    let mut keys: Vec<PatchKey> = (0..map.cells.len()).filter_map(key).collect();
+    let mut keys: Vec<PatchKey> = CellId::all(map.cells.len()).filter_map(key).collect();
     keys.sort_unstable();
     keys.dedup();
-    let find = |c| Some(keys.binary_search(&key(c)?).ok()? as u32);
-    let of_cell = (0..map.cells.len()).map(find).collect();
+    let find = |c| Some(PatchId::new(keys.binary_search(&key(c)?).ok()?));
+    let of_cell = CellId::all(map.cells.len()).map(find).collect();
     (keys, of_cell)
 }
 
 fn mean_depth(target: &Target, map: &ViewMap) -> f64 {
     let (mut sum, mut weight) = (0.0, 0.0);
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         let Some(face) = cell.face else { continue };
         let sr = map.solid_angle(c);
-        let z = target.mesh.faces[face as usize].map(|v| target.depth[v as usize]);
+        let z = target.mesh.faces[face].map(|v| target.depth[v as usize]);
         sum += sr * z.iter().sum::<f64>() / 3.0;
         weight += sr;
     }
     sum / weight
 }
 
-fn patch(sight: &Sight, group: u32, face: u32) -> Patch {
+fn patch(sight: &Sight, group: GroupId, face: FaceId) -> Patch {
     let Sight { image, groups, .. } = sight;
     let target = &image.target;
-    let support = groups.groups[group as usize].support;
-    let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
-    let room = target.mesh.faces[face as usize].map(|v| {
+    let support = groups.groups[group].support;
+    let slab = groups.slabs[support].expect("groups lie on supports with layers");
+    let room = target.mesh.faces[face].map(|v| {
         let (near, far) = image.layer_at(&slab, support, target.image[v as usize]);
         let z = target.depth[v as usize];
         ((near / z).ln(), (far / z).ln())
@@ -228,7 +234,7 @@ fn patch(sight: &Sight, group: u32, face: u32) -> Patch {
 /// high, and opens by `e (1 - e^-d) / Z` for an eye that moves sideways by `e` (design: `e |1/Z1 - 1/Z2|`); as from the reading
 /// distance by `focal^2` times that.
 fn highest(limits: &StepLimits, target: &Target, focal: f64, p: &Patch) -> f64 {
-    let depth = target.mesh.faces[p.face as usize].map(|v| target.depth[v as usize]);
+    let depth = target.mesh.faces[p.face].map(|v| target.depth[v as usize]);
     let at = |k: usize, y: f64| depth[k] * y.exp();
     let nearest = (0..3)
         .map(|k| at(k, p.room[k].0))
@@ -249,14 +255,14 @@ fn highest(limits: &StepLimits, target: &Target, focal: f64, p: &Patch) -> f64 {
 }
 
 /// Adds a cell's solid angle (to `seen_mm2`, scaled when all are known) and the bounds at its corners.
-fn add_cell(patch: &mut Patch, sight: &Sight, c: usize) {
+fn add_cell(patch: &mut Patch, sight: &Sight, c: CellId) {
     let Sight { image, groups, .. } = sight;
     let map = &image.map;
-    let support = groups.groups[patch.group as usize].support;
-    let slab = groups.slabs[support as usize].expect("groups lie on supports with layers");
+    let support = groups.groups[patch.group].support;
+    let slab = groups.slabs[support].expect("groups lie on supports with layers");
     patch.seen_mm2 += map.solid_angle(c);
     for (k, q) in map.triangle(c).into_iter().enumerate() {
-        let (anchor, z) = anchor(&image.target, patch.face as usize, q);
+        let (anchor, z) = anchor(&image.target, patch.face, q);
         let (near, far) = image.layer_in(&slab, c, k);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
@@ -288,22 +294,22 @@ fn seams(
     target: &Target,
     map: &ViewMap,
     patches: &[Patch],
-    of_cell: &[Option<u32>],
+    of_cell: &[Option<PatchId>],
     scale: f64,
 ) -> (Vec<Seam>, Vec<Rim>) {
     let (mut seams, mut rims) = (Vec::new(), Vec::new());
-    for c in 0..map.cells.len() {
+    for c in CellId::all(map.cells.len()) {
         for k in 0..3 {
-            let Some(n) = map.neighbours[c][k].filter(|n| *n as usize > c) else {
+            let Some(n) = map.neighbours[c][k].filter(|n| *n > c) else {
                 continue;
             };
-            let (Some(i), Some(j)) = (of_cell[c], of_cell[n as usize]) else {
+            let (Some(i), Some(j)) = (of_cell[c], of_cell[n]) else {
                 continue;
             };
             let corners = map.triangle(c);
             let line = [corners[k], corners[(k + 1) % 3]];
-            if patches[i as usize].support != patches[j as usize].support {
-                let i_is_near = map.cells[c].support_depth < map.cells[n as usize].support_depth;
+            if patches[i].support != patches[j].support {
+                let i_is_near = map.cells[c].support_depth < map.cells[n].support_depth;
                 let length_mm = line[0].distance(line[1]) * scale;
                 rims.extend([(i, i_is_near), (j, !i_is_near)].map(|(patch, near)| Rim {
                     patch,
@@ -320,8 +326,8 @@ fn seams(
     (seams, rims)
 }
 
-fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], scale: f64) -> Seam {
-    let faces = pair.map(|p| patches[p as usize].face as usize);
+fn seam(target: &Target, patches: &[Patch], pair: [PatchId; 2], line: [DVec2; 2], scale: f64) -> Seam {
+    let faces = pair.map(|p| patches[p].face);
     let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
     let gap = |[a, b]: [(Anchor, f64); 2]| {
         if (a.1 - b.1).abs() > TOGETHER_MM {
@@ -339,7 +345,7 @@ fn seam(target: &Target, patches: &[Patch], pair: [u32; 2], line: [DVec2; 2], sc
         line,
         crease: a.cross(b).length().atan2(a.dot(b)),
         highest: pair
-            .map(|p| patches[p as usize].highest)
+            .map(|p| patches[p].highest)
             .into_iter()
             .fold(f64::INFINITY, f64::min),
     }

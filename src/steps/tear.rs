@@ -6,6 +6,7 @@ use super::lines::{self, StepLine, StepSummary, lines};
 use super::options::StepOptions;
 use super::patches::{Patch, Patches};
 use super::thin;
+use crate::index::FaceId;
 use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
 use crate::sight::Sight;
 use crate::viewmap::Image;
@@ -23,7 +24,7 @@ pub struct Torn<'a> {
     pub depths: Depths,
     /// The uncut target's vertex at every vertex, and its face at every face.
     pub vertices: Vec<u32>,
-    pub faces: Vec<u32>,
+    pub faces: Vec<FaceId>,
     pub lines: Vec<StepLine>,
     pub summary: StepSummary,
 }
@@ -107,7 +108,7 @@ fn tear(
         .by_support()
         .into_par_iter()
         .map(|(range, cells)| {
-            let corners = |p: &Patch| target.mesh.faces[p.face as usize];
+            let corners = |p: &Patch| target.mesh.faces[p.face];
             let depth = |p: &Patch| corners(p).map(|v| target.depth[v as usize]);
             let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);

@@ -5,8 +5,9 @@
 //! program it hardly counts, so that the neighbour does not bend for it.
 
 use super::fusion::{Functional, PatchDepths};
-use super::patches::Patches;
+use super::patches::{PatchId, Patches};
 use crate::groups::anchor;
+use crate::index::CellId;
 use crate::viewmap::{Image, Target, ViewMap};
 use glam::{DVec2, IVec2};
 
@@ -23,7 +24,7 @@ const ROUNDS: usize = 3;
 pub fn absorb_thin(
     image: &Image,
     functional: &Functional,
-    cells: &[u32],
+    cells: &[CellId],
     field: &mut PatchDepths,
     narrowest_mm: f64,
 ) -> Vec<bool> {
@@ -56,14 +57,14 @@ struct Raster {
     corner: DVec2,
     pixel: f64,
     size: IVec2,
-    /// Patch or `u32::MAX`, row by row.
-    patch: Vec<u32>,
+    /// Patch, row by row.
+    patch: Vec<Option<PatchId>>,
 }
 
 impl Raster {
     /// `narrowest` in the image.
-    fn new(map: &ViewMap, patches: &Patches, cells: &[u32], narrowest: f64) -> Self {
-        let points = || cells.iter().flat_map(|c| map.triangle(*c as usize));
+    fn new(map: &ViewMap, patches: &Patches, cells: &[CellId], narrowest: f64) -> Self {
+        let points = || cells.iter().flat_map(|c| map.triangle(*c));
         let lo = points().fold(DVec2::INFINITY, DVec2::min);
         let hi = points().fold(DVec2::NEG_INFINITY, DVec2::max);
         let extent = hi - lo;
@@ -73,11 +74,11 @@ impl Raster {
             corner: lo,
             pixel,
             size,
-            patch: vec![u32::MAX; (size.x * size.y) as usize],
+            patch: vec![None; (size.x * size.y) as usize],
         };
         for c in cells {
-            if let Some(p) = patches.of_cell[*c as usize] {
-                raster.fill(map.triangle(*c as usize), p);
+            if let Some(p) = patches.of_cell[*c] {
+                raster.fill(map.triangle(*c), p);
             }
         }
         raster
@@ -88,7 +89,7 @@ impl Raster {
     }
 
     /// Labels the pixels whose centres lie in a triangle.
-    fn fill(&mut self, triangle: [DVec2; 3], patch: u32) {
+    fn fill(&mut self, triangle: [DVec2; 3], patch: PatchId) {
         let local = triangle.map(|q| (q - self.corner) / self.pixel - 0.5);
         let lo = local[0]
             .min(local[1])
@@ -108,39 +109,35 @@ impl Raster {
         for y in lo.y..=hi.y {
             for x in lo.x..=hi.x {
                 if inside(DVec2::new(f64::from(x), f64::from(y))) {
-                    self.patch[(y * self.size.x + x) as usize] = patch;
+                    self.patch[(y * self.size.x + x) as usize] = Some(patch);
                 }
             }
         }
     }
 
-    fn at(&self, p: IVec2) -> Option<u32> {
+    fn at(&self, p: IVec2) -> Option<PatchId> {
         let inside = p.cmpge(IVec2::ZERO).all() && p.cmplt(self.size).all();
-        let patch = inside.then(|| self.patch[(p.y * self.size.x + p.x) as usize])?;
-        (patch != u32::MAX).then_some(patch)
+        inside.then(|| self.patch[(p.y * self.size.x + p.x) as usize])?
     }
 
-    fn pixels(&self) -> impl Iterator<Item = (IVec2, u32)> {
+    fn pixels(&self) -> impl Iterator<Item = (IVec2, PatchId)> {
         let width = self.size.x;
-        let pixel =
-            move |(k, p): (usize, &u32)| (IVec2::new(k as i32 % width, k as i32 / width), *p);
-        self.patch
-            .iter()
-            .enumerate()
-            .map(pixel)
-            .filter(|p| p.1 != u32::MAX)
+        let pixel = move |(k, p): (usize, &Option<PatchId>)| {
+            Some((IVec2::new(k as i32 % width, k as i32 / width), (*p)?))
+        };
+        self.patch.iter().enumerate().filter_map(pixel)
     }
 
     /// Whether at least half of a patch's pixels lie where no disc of the narrowest width fits between tears; index: patch
     /// of the support.
     fn thin(&self, target: &Target, functional: &Functional, pieces: &[u32]) -> Vec<bool> {
-        let first = functional.range().start as u32;
-        let piece = |p: u32| pieces[(p - first) as usize];
-        let depth = |patch: u32, at: IVec2| {
-            let face = functional.patches().patches[patch as usize].face;
-            anchor(target, face as usize, self.centre(at)).1
+        let first = functional.range().start;
+        let piece = |p: PatchId| pieces[p.at() - first];
+        let depth = |patch: PatchId, at: IVec2| {
+            let face = functional.patches().patches[patch].face;
+            anchor(target, face, self.centre(at)).1
         };
-        let torn = |at: IVec2, p: u32, by: IVec2| {
+        let torn = |at: IVec2, p: PatchId, by: IVec2| {
             self.at(at + by).is_some_and(|q| {
                 piece(q) != piece(p) && (depth(q, at) - depth(p, at)).abs() < TEAR_MM
             })
@@ -159,7 +156,7 @@ impl Raster {
         let within = |by: &IVec2, r: f64| f64::from(by.length_squared()) <= r * r;
         let near: Vec<IVec2> = disc().filter(|by| within(by, radius - 1.0)).collect();
         let wide: Vec<IVec2> = disc().filter(|by| within(by, radius)).collect();
-        let same = |at: IVec2, p: u32| self.at(at).is_some_and(|q| piece(q) == piece(p));
+        let same = |at: IVec2, p: PatchId| self.at(at).is_some_and(|q| piece(q) == piece(p));
         let mut centre = vec![false; self.patch.len()];
         for (at, p) in self.pixels() {
             centre[index(at)] = !near
@@ -171,7 +168,7 @@ impl Raster {
             let fits = wide
                 .iter()
                 .any(|by| same(at + *by, p) && centre[index(at + *by)]);
-            let slot = &mut count[(p - first) as usize];
+            let slot = &mut count[p.at() - first];
             slot.0 += u32::from(!fits);
             slot.1 += 1;
         }

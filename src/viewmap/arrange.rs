@@ -4,13 +4,14 @@ use super::map::{Cell, ViewMap, ViewMapError};
 use super::outline::Segment;
 use super::target::Target;
 use crate::geom::ImagePlane;
+use crate::index::{CellId, PointId};
 use crate::mesh::{TriMesh, face_neighbours};
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Snapping grids tried in turn, as shares of the window: `spade` can fail on points 1e-9 apart, and then a coarser grid helps.
-const GRIDS: [f64; 3] = [
+pub const GRIDS: [f64; 3] = [
     1.0 / (1u64 << 26) as f64,
     1.0 / (1u64 << 23) as f64,
     1.0 / (1u64 << 20) as f64,
@@ -26,7 +27,7 @@ pub fn arrange(
     let segments = segments(target, wanted, outlines);
     let (lo, hi) = target.image_box();
     let mut reason = String::new();
-    for grid in GRIDS {
+    for (rung, grid) in GRIDS.into_iter().enumerate() {
         let snap = Snap {
             origin: lo,
             step: (hi - lo).max_element() * grid,
@@ -41,6 +42,7 @@ pub fn arrange(
                     cells,
                     neighbours,
                     doubtful_sr: 0.0,
+                    grid: rung,
                 });
             }
             Ok(Err(e)) => reason = e,
@@ -130,7 +132,7 @@ fn triangulate(
         .collect();
     let corners = cdt
         .inner_faces()
-        .map(|f| f.vertices().map(|v| v.fix().index() as u32));
+        .map(|f| f.vertices().map(|v| PointId::new(v.fix().index())));
     Ok((
         points,
         corners
@@ -148,9 +150,10 @@ fn triangulate(
 }
 
 /// For every cell the cells across its three sides.
-pub fn neighbours(cells: &[Cell]) -> Vec<[Option<u32>; 3]> {
-    face_neighbours(&TriMesh {
+pub fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
+    let across = face_neighbours(&TriMesh {
         vertices: Vec::new(),
-        faces: cells.iter().map(|c| c.corners).collect(),
-    })
+        faces: cells.iter().map(|c| c.corners.map(|p| p.0)).collect(),
+    });
+    across.into_iter().map(|n| n.map(|c| c.map(CellId))).collect()
 }

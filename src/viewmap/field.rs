@@ -1,6 +1,7 @@
 //! The supports as one target for rays.
 
 use crate::bvh::{Bvh, Hit};
+use crate::index::{FaceId, FacetId, SupportId};
 use crate::mesh::TriMesh;
 use crate::support::{Datum, Support, SupportKind};
 use glam::DVec3;
@@ -10,8 +11,8 @@ pub struct SupportField<'a> {
     pub supports: &'a [Support],
     pub(super) mesh: TriMesh,
     /// Support of every face, and first face of every support.
-    pub(super) owner: Vec<u32>,
-    first: Vec<u32>,
+    pub(super) owner: Vec<SupportId>,
+    first: Vec<FaceId>,
     pub(super) bvh: Bvh,
 }
 
@@ -20,9 +21,9 @@ impl<'a> SupportField<'a> {
         let mut mesh = TriMesh::default();
         let (mut owner, mut first) = (Vec::new(), Vec::new());
         for (i, support) in supports.iter().enumerate() {
-            first.push(mesh.faces.len() as u32);
+            first.push(FaceId::new(mesh.faces.len()));
             mesh.append(&support.mesh);
-            owner.resize(mesh.faces.len(), i as u32);
+            owner.resize(mesh.faces.len(), SupportId::new(i));
         }
         let bvh = Bvh::new(&mesh);
         Self {
@@ -35,34 +36,34 @@ impl<'a> SupportField<'a> {
     }
 
     /// The first support on a ray and the ray's parameter there.
-    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(SupportId, f64)> {
         self.bvh
             .first_hit(origin, direction)
             .map(|h| (self.owner[h.face], h.t))
     }
 
     /// The ray's parameter at the plane of a face of the supports; not finite if they are parallel.
-    pub fn facet_depth(&self, facet: u32, origin: DVec3, direction: DVec3) -> f64 {
-        let normal = self.mesh.area_vector(facet as usize);
-        let corner = self.mesh.corners(facet as usize)[0];
+    pub fn facet_depth(&self, facet: FacetId, origin: DVec3, direction: DVec3) -> f64 {
+        let normal = self.mesh.area_vector(facet.at());
+        let corner = self.mesh.corners(facet.at())[0];
         normal.dot(corner - origin) / normal.dot(direction)
     }
 
     /// As [`Self::first_hit`], of one support, whatever stands before it.
-    pub fn hit_of(&self, support: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
+    pub fn hit_of(&self, support: SupportId, origin: DVec3, direction: DVec3) -> Option<f64> {
         let own = |face: usize| self.owner[face] == support;
         let hit = self.bvh.first_hit_where(origin, direction, own);
         hit.map(|h| h.t)
     }
 
     /// How thick a support is behind where a ray first meets it, in units of the ray's direction; infinite if it never leaves it.
-    pub fn thickness(&self, support: u32, origin: DVec3, direction: DVec3) -> f64 {
+    pub fn thickness(&self, support: SupportId, origin: DVec3, direction: DVec3) -> f64 {
         let found = self.wall(support, origin, direction);
         found.map_or(f64::INFINITY, |(first, leaves)| leaves.t - first.t)
     }
 
     /// Where a ray first meets a support and where it leaves it again.
-    pub fn wall(&self, support: u32, origin: DVec3, direction: DVec3) -> Option<(Hit, Hit)> {
+    pub fn wall(&self, support: SupportId, origin: DVec3, direction: DVec3) -> Option<(Hit, Hit)> {
         let hits = self.bvh.all_hits(origin, direction).into_iter();
         let mut own = hits.filter(|h| self.owner[h.face] == support);
         let leaves = |face: usize| self.mesh.area_vector(face).dot(direction) > 0.0;
@@ -70,20 +71,20 @@ impl<'a> SupportField<'a> {
     }
 
     /// Whether the layer of a support goes through walls.
-    pub(super) fn goes_through(&self, support: u32) -> bool {
-        let layer = self.supports[support as usize].layer;
+    pub(super) fn goes_through(&self, support: SupportId) -> bool {
+        let layer = self.supports[support].layer;
         layer.is_some_and(|l| l.goes_through())
     }
 
     /// The part of its support that a face of the supports' mesh belongs to.
-    pub fn part(&self, facet: u32) -> u32 {
-        let support = self.owner[facet as usize];
-        self.supports[support as usize].part((facet - self.first[support as usize]) as usize)
+    pub fn part(&self, facet: FacetId) -> u32 {
+        let support = self.owner[facet];
+        self.supports[support].part(facet.at() - self.first[support].at())
     }
 
     /// Whether the layer of the support that a face belongs to follows its surface.
-    pub(super) fn is_shell(&self, facet: u32) -> bool {
-        let layer = self.supports[self.owner[facet as usize] as usize].layer;
+    pub(super) fn is_shell(&self, facet: FacetId) -> bool {
+        let layer = self.supports[self.owner[facet]].layer;
         layer.is_some_and(|l| l.datum() == Datum::Surface)
     }
 

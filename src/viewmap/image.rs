@@ -1,9 +1,12 @@
 //! One eye's models on the supports: what stages before the groups know of a view, as one value.
 
+use super::arrange::GRIDS;
 use super::field::SupportField;
 use super::map::{ViewMap, ViewMapError};
 use super::seen::view_map;
 use super::target::Target;
+use crate::index::{CellId, FacetId, SupportId};
+use crate::ladder::{Ladder, Rung};
 use crate::support::{Hits, Slab};
 use crate::view::View;
 use glam::DVec2;
@@ -31,6 +34,16 @@ impl<'a> Image<'a> {
         })
     }
 
+    /// Which of its snapping grids held.
+    pub fn rung(&self) -> Rung {
+        Rung {
+            ladder: Ladder::SnappingGrid,
+            place: self.view.name.clone(),
+            held: self.map.grid,
+            of: GRIDS.len(),
+        }
+    }
+
     /// The same surface cut along lines that the eye cannot see.
     pub fn cut(&self, target: Target, map: ViewMap) -> Self {
         Self {
@@ -41,7 +54,7 @@ impl<'a> Image<'a> {
     }
 
     /// Smallest and largest depth (along the image plane's forward axis) the layer of `support` allows on the ray `q`.
-    pub fn layer_at(&self, slab: &Slab, support: u32, q: DVec2) -> (f64, f64) {
+    pub fn layer_at(&self, slab: &Slab, support: SupportId, q: DVec2) -> (f64, f64) {
         let (field, plane) = (self.field, &self.map.plane);
         let direction = plane.direction(q);
         let on_plane = slab.plane(direction, 0.0);
@@ -64,7 +77,7 @@ impl<'a> Image<'a> {
 
     /// The same at corner `k` of a cell, whose part of the support is one plane: the inverses of both are affine over the cell.
     /// Where an outline of the model is to lie on the support, at its corners there is hardly any room.
-    pub fn layer_in(&self, slab: &Slab, cell: usize, k: usize) -> (f64, f64) {
+    pub fn layer_in(&self, slab: &Slab, cell: CellId, k: usize) -> (f64, f64) {
         let q = self.map.triangle(cell)[k];
         let direction = self.map.plane.direction(q);
         let surface = self.surface_in(slab, cell, q);
@@ -75,9 +88,9 @@ impl<'a> Image<'a> {
 
     /// Where the ray `q` meets a layer's datum, in the plane that the support is in a cell; and where it leaves the wall behind, if
     /// the layer goes through that and all of the cell has room: over a cell it has if its corners do.
-    pub fn surface_in(&self, slab: &Slab, cell: usize, q: DVec2) -> Hits {
+    pub fn surface_in(&self, slab: &Slab, cell: CellId, q: DVec2) -> Hits {
         let map = &self.map;
-        let at = |f: u32, q: DVec2| {
+        let at = |f: FacetId, q: DVec2| {
             self.field
                 .facet_depth(f, map.plane.eye, map.plane.direction(q))
         };
@@ -85,7 +98,7 @@ impl<'a> Image<'a> {
             return Hits::at(slab.plane(map.plane.direction(q), 0.0));
         };
         let leaves = map.cells[cell].leaves.filter(|_| slab.goes_through());
-        let roomy = |f: &u32| {
+        let roomy = |f: &FacetId| {
             let corners = map.triangle(cell);
             corners
                 .iter()

@@ -1,6 +1,7 @@
 //! The view map itself: cells of an eye's image, and what is seen in each.
 
 use crate::geom::ImagePlane;
+use crate::index::{CellId, FaceId, FacetId, PointId, SupportId};
 use crate::mesh::DisjointSets;
 use glam::DVec2;
 
@@ -8,15 +9,15 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     /// Indices of image points, counter-clockwise.
-    pub corners: [u32; 3],
+    pub corners: [PointId; 3],
     /// The model face seen here.
-    pub face: Option<u32>,
+    pub face: Option<FaceId>,
     /// The support first hit here.
-    pub support: Option<u32>,
+    pub support: Option<SupportId>,
     /// The face of the supports' mesh hit here, for [`SupportField::facet_depth`].
-    pub facet: Option<u32>,
+    pub facet: Option<FacetId>,
     /// The face of the supports' mesh at which rays leave the wall behind, where a layer goes through that.
-    pub leaves: Option<u32>,
+    pub leaves: Option<FacetId>,
     /// Depth along the forward axis at which the cell's centre meets it; infinite without.
     pub support_depth: f64,
     /// Which corners lie on the outline of the face's component, as the eye sees it.
@@ -30,40 +31,47 @@ pub struct ViewMap {
     pub points: Vec<DVec2>,
     pub cells: Vec<Cell>,
     /// The cell across the side from corner `k` to `k + 1`.
-    pub neighbours: Vec<[Option<u32>; 3]>,
+    pub neighbours: Vec<[Option<CellId>; 3]>,
     /// Solid angle in steradians of cells whose label was still in doubt after the last round: 0 unless faces are tangled.
     pub doubtful_sr: f64,
+    /// The grid that its points were snapped to, from 0 of [`GRIDS`](super::GRIDS): coarser ones are tried where one fails.
+    pub grid: usize,
 }
 
 impl ViewMap {
-    pub fn triangle(&self, cell: usize) -> [DVec2; 3] {
-        self.cells[cell].corners.map(|p| self.points[p as usize])
+    pub fn triangle(&self, cell: CellId) -> [DVec2; 3] {
+        self.cells[cell].corners.map(|p| self.points[p])
+    }
+
+    /// All cells with their indices, rising.
+    pub fn all(&self) -> impl Iterator<Item = (CellId, &Cell)> {
+        CellId::all(self.cells.len()).zip(&self.cells)
     }
 
     /// Number of connected regions of cells that are `inside`.
-    pub fn regions(&self, inside: impl Fn(usize) -> bool) -> usize {
+    pub fn regions(&self, inside: impl Fn(CellId) -> bool) -> usize {
         let mut sets = DisjointSets::new(self.cells.len());
-        let pairs = (0..self.cells.len())
-            .flat_map(|c| self.neighbours[c].iter().flatten().map(move |n| (c, *n)));
+        let all = || CellId::all(self.cells.len());
+        let pairs = all().flat_map(|c| self.neighbours[c].iter().flatten().map(move |n| (c, *n)));
         pairs
-            .filter(|(c, n)| inside(*c) && inside(*n as usize))
-            .for_each(|(c, n)| sets.join(c as u32, n));
-        (0..self.cells.len())
-            .filter(|c| inside(*c) && sets.root(*c as u32) == *c as u32)
+            .filter(|(c, n)| inside(*c) && inside(*n))
+            .for_each(|(c, n)| sets.join(c.0, n.0));
+        all()
+            .filter(|c| inside(*c) && sets.root(c.0) == c.0)
             .count()
     }
 
     /// Mean of three image points.
-    pub fn points_mean(&self, corners: [u32; 3]) -> DVec2 {
+    pub fn points_mean(&self, corners: [PointId; 3]) -> DVec2 {
         corners
             .iter()
-            .map(|p| self.points[*p as usize])
+            .map(|p| self.points[*p])
             .sum::<DVec2>()
             / 3.0
     }
 
     /// Solid angle of a cell in steradians, as [`ImagePlane::solid_angle`] has it.
-    pub fn solid_angle(&self, cell: usize) -> f64 {
+    pub fn solid_angle(&self, cell: CellId) -> f64 {
         self.plane.solid_angle(self.triangle(cell)).abs()
     }
 }

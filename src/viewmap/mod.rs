@@ -20,6 +20,7 @@ mod seen;
 mod target;
 mod thin;
 
+pub use arrange::GRIDS;
 pub use field::SupportField;
 pub use image::Image;
 pub use map::{Cell, ViewMap, ViewMapError};

@@ -2,6 +2,7 @@
 
 use super::field::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
+use crate::index::SupportId;
 use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;
 use crate::support::SupportKind;
@@ -18,7 +19,7 @@ const GRAZED: f64 = 1e-3;
 pub type Segment = [DVec2; 2];
 
 /// An outline edge in space with its image and inverse depths.
-struct Line {
+struct OutlineEdge {
     image: Segment,
     inverse_depth: [f64; 2],
 }
@@ -29,7 +30,7 @@ pub fn seen_outlines(
     field: &SupportField,
     window: (DVec2, DVec2),
 ) -> Vec<Segment> {
-    let mut lines: Vec<Line> = silhouette(field, plane.eye)
+    let mut lines: Vec<OutlineEdge> = silhouette(field, plane.eye)
         .iter()
         .filter_map(|e| line(plane, *e))
         .collect();
@@ -58,9 +59,9 @@ fn far_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)
         let mut l = line(plane, ends)?;
         clip(&mut l, window).then_some((support, l))
     });
-    let (supports, lines): (Vec<u32>, Vec<Line>) = clipped.unzip();
+    let (supports, lines): (Vec<SupportId>, Vec<OutlineEdge>) = clipped.unzip();
     let pieces = |i: usize| {
-        let l: &Line = &lines[i];
+        let l: &OutlineEdge = &lines[i];
         let cuts = cuts(&lines, i);
         let pairs = cuts.windows(2).filter(|p| p[1] - p[0] > 1e-12);
         let ends = pairs.filter(|p| is_in_wall(plane, field, supports[i], l, p[0].midpoint(p[1])));
@@ -72,7 +73,7 @@ fn far_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)
 }
 
 /// Edges of faces turned away from the eye of supports whose layers go through walls, with their supports.
-fn far_edges(field: &SupportField, eye: DVec3) -> Vec<(u32, [DVec3; 2])> {
+fn far_edges(field: &SupportField, eye: DVec3) -> Vec<(SupportId, [DVec3; 2])> {
     let mesh = &field.mesh;
     let owner = |sides: &[HalfEdge]| field.owner[sides[0].face as usize];
     let away = |h: &HalfEdge| {
@@ -89,7 +90,13 @@ fn far_edges(field: &SupportField, eye: DVec3) -> Vec<(u32, [DVec3; 2])> {
 }
 
 /// Whether the line at parameter `t` lies between where a ray meets the support and where it leaves it again.
-fn is_in_wall(plane: &ImagePlane, field: &SupportField, support: u32, l: &Line, t: f64) -> bool {
+fn is_in_wall(
+    plane: &ImagePlane,
+    field: &SupportField,
+    support: SupportId,
+    l: &OutlineEdge,
+    t: f64,
+) -> bool {
     let direction = plane.direction(l.image[0].lerp(l.image[1], t));
     let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
     let wall = field.wall(support, plane.eye, direction);
@@ -148,16 +155,16 @@ fn feet(field: &SupportField) -> Vec<[DVec3; 2]> {
     rings
 }
 
-fn line(plane: &ImagePlane, ends: [DVec3; 2]) -> Option<Line> {
+fn line(plane: &ImagePlane, ends: [DVec3; 2]) -> Option<OutlineEdge> {
     let image = [plane.project(ends[0])?, plane.project(ends[1])?];
-    Some(Line {
+    Some(OutlineEdge {
         image,
         inverse_depth: ends.map(|p| 1.0 / plane.depth(p)),
     })
 }
 
 /// Shortens the line to the window (Liang & Barsky 1984); false if nothing is left.
-fn clip(l: &mut Line, window: (DVec2, DVec2)) -> bool {
+fn clip(l: &mut OutlineEdge, window: (DVec2, DVec2)) -> bool {
     let (a, d) = (l.image[0], l.image[1] - l.image[0]);
     let (mut t0, mut t1) = (0.0f64, 1.0f64);
     for k in 0..2 {
@@ -175,7 +182,7 @@ fn clip(l: &mut Line, window: (DVec2, DVec2)) -> bool {
         return false;
     }
     let inverse = |t: f64| l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]);
-    let clipped = Line {
+    let clipped = OutlineEdge {
         image: [a + t0 * d, a + t1 * d],
         inverse_depth: [inverse(t0), inverse(t1)],
     };
@@ -184,7 +191,7 @@ fn clip(l: &mut Line, window: (DVec2, DVec2)) -> bool {
 }
 
 /// Parameters along line `i` at which it crosses another, with both ends, in rising order.
-fn cuts(lines: &[Line], i: usize) -> Vec<f64> {
+fn cuts(lines: &[OutlineEdge], i: usize) -> Vec<f64> {
     let [a, b] = lines[i].image;
     let (lo, hi) = (a.min(b), a.max(b));
     let mut cuts = vec![0.0, 1.0];
@@ -200,7 +207,7 @@ fn cuts(lines: &[Line], i: usize) -> Vec<f64> {
 }
 
 /// Whether nothing stands in front of the line at parameter `t`.
-fn is_seen(plane: &ImagePlane, field: &SupportField, l: &Line, t: f64) -> bool {
+fn is_seen(plane: &ImagePlane, field: &SupportField, l: &OutlineEdge, t: f64) -> bool {
     let q = l.image[0].lerp(l.image[1], t);
     let depth = 1.0 / (l.inverse_depth[0] + t * (l.inverse_depth[1] - l.inverse_depth[0]));
     field

@@ -7,6 +7,7 @@ use super::outline::seen_outlines;
 use super::target::Target;
 use super::thin::merge_thin;
 use crate::geom::{ImagePlane, barycentric};
+use crate::index::{CellId, FaceId, FacetId, PointId};
 use crate::mesh::face_components;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -27,21 +28,26 @@ pub fn view_map(
     target: &Target,
     supports: &SupportField,
 ) -> Result<ViewMap, ViewMapError> {
-    let mut wanted = seen_at_samples(&plane, target);
+    let looking = Looking {
+        plane,
+        target,
+        supports,
+    };
+    let mut wanted = looking.seen_at_samples();
     if !wanted.iter().any(|w| *w) {
         return Err(ViewMapError::NothingSeen);
     }
     let outlines = seen_outlines(&plane, supports, target.image_box());
     let mut map = arrange(&plane, target, &wanted, &outlines)?;
-    let mut doubtful = label(&mut map, target, supports);
+    let mut doubtful = looking.label(&mut map);
     for _ in 1..MAX_ROUNDS {
-        let missing = missing_faces(&map, target, &doubtful, &wanted);
+        let missing = looking.missing_faces(&map, &doubtful, &wanted);
         if missing.is_empty() {
             break;
         }
         missing.iter().for_each(|f| wanted[*f] = true);
         map = arrange(&plane, target, &wanted, &outlines)?;
-        doubtful = label(&mut map, target, supports);
+        doubtful = looking.label(&mut map);
     }
     map.doubtful_sr = doubtful.iter().map(|c| map.solid_angle(*c)).sum();
     merge_thin(&mut map, THINNEST_MM / plane.scale(mean(&target.depth)));
@@ -49,14 +55,103 @@ pub fn view_map(
     Ok(map)
 }
 
+/// One eye looking at its models and the supports.
+struct Looking<'a> {
+    plane: ImagePlane,
+    target: &'a Target,
+    supports: &'a SupportField<'a>,
+}
+
+impl Looking<'_> {
+    /// Faces seen at their centre or near a corner.
+    fn seen_at_samples(&self) -> Vec<bool> {
+        let target = self.target;
+        let is_seen = |f: usize| {
+            let corners = target.image_of(f);
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let samples = [
+                centre,
+                centre.lerp(corners[0], 0.9),
+                centre.lerp(corners[1], 0.9),
+                centre.lerp(corners[2], 0.9),
+            ];
+            samples.iter().any(|q| self.seen_face(*q) == Some(FaceId::new(f)))
+        };
+        (0..target.mesh.faces.len())
+            .into_par_iter()
+            .map(|f| target.may_be_seen(f) && is_seen(f))
+            .collect()
+    }
+
+    /// The front-most face on the ray `q`.
+    fn seen_face(&self, q: DVec2) -> Option<FaceId> {
+        let Self { plane, target, .. } = self;
+        let hit = target
+            .bvh
+            .first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
+        hit.map(|h| FaceId::new(h.face))
+    }
+
+    /// Labels every cell by a ray through its centre; gives the cells that stick out of their face.
+    fn label(&self, map: &mut ViewMap) -> Vec<CellId> {
+        let labelled = |c| self.labelled(map, c);
+        map.cells = {
+            let cells = 0..map.cells.len() as u32;
+            cells.into_par_iter().map(|c| labelled(CellId(c))).collect()
+        };
+        let sticks_out = |c: &CellId| {
+            let face = map.cells[*c].face;
+            face.is_some_and(|f| !holds(self.target.image_of(f.at()), map.triangle(*c)))
+        };
+        CellId::all(map.cells.len()).filter(sticks_out).collect()
+    }
+
+    /// A cell with what the ray through its centre meets.
+    fn labelled(&self, map: &ViewMap, c: CellId) -> Cell {
+        let supports = self.supports;
+        let centre = map.points_mean(map.cells[c].corners);
+        let direction = map.plane.direction(centre);
+        let hit = supports.bvh.first_hit(map.plane.eye, direction);
+        let support = hit.map(|h| supports.owner[h.face]);
+        let through = support.filter(|s| supports.goes_through(*s));
+        let wall = through.and_then(|s| supports.wall(s, map.plane.eye, direction));
+        Cell {
+            face: self.seen_face(centre),
+            support,
+            facet: hit.map(|h| FacetId::new(h.face)),
+            leaves: wall.map(|(_, leaves)| FacetId::new(leaves.face)),
+            support_depth: hit.map_or(f64::INFINITY, |h| h.t),
+            ..map.cells[c]
+        }
+    }
+
+    /// Faces not yet wanted that rays near the corners of doubtful cells meet.
+    fn missing_faces(&self, map: &ViewMap, doubtful: &[CellId], wanted: &[bool]) -> Vec<FaceId> {
+        let mut found = Vec::new();
+        for c in doubtful {
+            let corners = map.triangle(*c);
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            for share in [0.0, 0.5, 0.98] {
+                for corner in corners {
+                    found.extend(self.seen_face(centre.lerp(corner, share)));
+                }
+            }
+        }
+        found.retain(|f| !wanted[*f]);
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
 /// Marks the corners of cells that lie on sides where the image of their component ends.
 fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
-    let of = |cell: &Cell| cell.face.map(|f| component[f as usize]);
-    let mut marked: Vec<(u32, u32)> = Vec::new();
+    let of = |cell: &Cell| cell.face.map(|f| component[f]);
+    let mut marked: Vec<(PointId, u32)> = Vec::new();
     for (cell, across) in map.cells.iter().zip(&map.neighbours) {
         let Some(own) = of(cell) else { continue };
         for (k, next) in across.iter().enumerate() {
-            let beyond = next.and_then(|n| of(&map.cells[n as usize]));
+            let beyond = next.and_then(|n| of(&map.cells[n]));
             if beyond != Some(own) {
                 marked.extend([k, (k + 1) % 3].map(|k| (cell.corners[k], own)));
             }
@@ -72,64 +167,6 @@ fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
     }
 }
 
-/// Faces seen at their centre or near a corner.
-fn seen_at_samples(plane: &ImagePlane, target: &Target) -> Vec<bool> {
-    let is_seen = |f: usize| {
-        let corners = target.image_of(f);
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let samples = [
-            centre,
-            centre.lerp(corners[0], 0.9),
-            centre.lerp(corners[1], 0.9),
-            centre.lerp(corners[2], 0.9),
-        ];
-        samples
-            .iter()
-            .any(|q| seen_face(plane, target, *q) == Some(f))
-    };
-    (0..target.mesh.faces.len())
-        .into_par_iter()
-        .map(|f| target.may_be_seen(f) && is_seen(f))
-        .collect()
-}
-
-/// The front-most face on the ray `q`.
-fn seen_face(plane: &ImagePlane, target: &Target, q: DVec2) -> Option<usize> {
-    let hit = target
-        .bvh
-        .first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
-    hit.map(|h| h.face)
-}
-
-/// Labels every cell by a ray through its centre; gives the cells that stick out of their face.
-fn label(map: &mut ViewMap, target: &Target, supports: &SupportField) -> Vec<usize> {
-    let labelled = |c| labelled(map, c, target, supports);
-    map.cells = (0..map.cells.len()).into_par_iter().map(labelled).collect();
-    let sticks_out = |c: &usize| {
-        let face = map.cells[*c].face;
-        face.is_some_and(|f| !holds(target.image_of(f as usize), map.triangle(*c)))
-    };
-    (0..map.cells.len()).filter(sticks_out).collect()
-}
-
-/// A cell with what the ray through its centre meets.
-fn labelled(map: &ViewMap, c: usize, target: &Target, supports: &SupportField) -> Cell {
-    let centre = map.points_mean(map.cells[c].corners);
-    let direction = map.plane.direction(centre);
-    let hit = supports.bvh.first_hit(map.plane.eye, direction);
-    let support = hit.map(|h| supports.owner[h.face]);
-    let through = support.filter(|s| supports.goes_through(*s));
-    let wall = through.and_then(|s| supports.wall(s, map.plane.eye, direction));
-    Cell {
-        face: seen_face(&map.plane, target, centre).map(|f| f as u32),
-        support,
-        facet: hit.map(|h| h.face as u32),
-        leaves: wall.map(|(_, leaves)| leaves.face as u32),
-        support_depth: hit.map_or(f64::INFINITY, |h| h.t),
-        ..map.cells[c]
-    }
-}
-
 /// Whether `outer` holds all points of `inner` but for rounding.
 fn holds(outer: [DVec2; 3], inner: [DVec2; 3]) -> bool {
     let [a, b, c] = outer;
@@ -140,29 +177,6 @@ fn holds(outer: [DVec2; 3], inner: [DVec2; 3]) -> bool {
     inner
         .iter()
         .all(|q| barycentric(a, b, c, *q).min_element() >= -slack)
-}
-
-/// Faces not yet wanted that rays near the corners of doubtful cells meet.
-fn missing_faces(
-    map: &ViewMap,
-    target: &Target,
-    doubtful: &[usize],
-    wanted: &[bool],
-) -> Vec<usize> {
-    let mut found = Vec::new();
-    for c in doubtful {
-        let corners = map.triangle(*c);
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        for share in [0.0, 0.5, 0.98] {
-            for corner in corners {
-                found.extend(seen_face(&map.plane, target, centre.lerp(corner, share)));
-            }
-        }
-    }
-    found.retain(|f| !wanted[*f]);
-    found.sort_unstable();
-    found.dedup();
-    found
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -7,6 +7,7 @@
 use super::arrange::neighbours;
 use super::map::{Cell, ViewMap};
 use crate::geom::orient;
+use crate::index::{CellId, PointId};
 use glam::DVec2;
 
 /// Gives every cell a height of at least `height` (image units) where the triangulation allows it.
@@ -27,29 +28,29 @@ struct Work {
     points: Vec<DVec2>,
     cells: Vec<Option<Cell>>,
     /// Cells around each point, in no particular order.
-    around: Vec<Vec<u32>>,
+    around: Vec<Vec<CellId>>,
     /// Corners of the window stay.
     fixed: Vec<bool>,
-    queue: std::collections::VecDeque<u32>,
+    queue: std::collections::VecDeque<CellId>,
 }
 
 impl Work {
     fn new(map: &ViewMap, height: f64) -> Self {
         let mut around = vec![Vec::new(); map.points.len()];
-        for (c, cell) in map.cells.iter().enumerate() {
+        for (c, cell) in map.all() {
             cell.corners
                 .iter()
-                .for_each(|p| around[*p as usize].push(c as u32));
+                .for_each(|p| around[*p].push(c));
         }
         let mut fixed = vec![false; map.points.len()];
         for (cell, across) in map.cells.iter().zip(&map.neighbours) {
             for k in (0..3).filter(|k| across[*k].is_none()) {
-                fixed[cell.corners[k] as usize] = true;
-                fixed[cell.corners[(k + 1) % 3] as usize] = true;
+                fixed[cell.corners[k]] = true;
+                fixed[cell.corners[(k + 1) % 3]] = true;
             }
         }
         let cells: Vec<_> = map.cells.iter().copied().map(Some).collect();
-        let queue = (0..cells.len() as u32).collect();
+        let queue = CellId::all(cells.len()).collect();
         Self {
             height,
             points: map.points.clone(),
@@ -64,7 +65,7 @@ impl Work {
         // Each step removes two cells or swaps two; the budget only stops two flat cells from swapping for ever.
         let mut budget = 4 * self.cells.len();
         while let Some(c) = self.queue.pop_front() {
-            let Some(cell) = self.cells[c as usize].filter(|cell| self.too_thin(cell)) else {
+            let Some(cell) = self.cells[c].filter(|cell| self.too_thin(cell)) else {
                 continue;
             };
             if budget == 0 {
@@ -77,8 +78,8 @@ impl Work {
         }
     }
 
-    fn at(&self, p: u32) -> DVec2 {
-        self.points[p as usize]
+    fn at(&self, p: PointId) -> DVec2 {
+        self.points[p]
     }
 
     /// Length of the side from corner `k` to the next.
@@ -107,15 +108,15 @@ impl Work {
     }
 
     /// Moves point `from` onto `to` if no cell turns over and the triangulation stays one.
-    fn merge(&mut self, from: u32, to: u32) -> bool {
-        if self.fixed[from as usize] || self.common_neighbours(from, to) != 2 {
+    fn merge(&mut self, from: PointId, to: PointId) -> bool {
+        if self.fixed[from] || self.common_neighbours(from, to) != 2 {
             return false;
         }
         let moved = |cell: &Cell| cell.corners.map(|p| if p == from { to } else { p });
-        let (dying, staying): (Vec<u32>, Vec<u32>) = self.around[from as usize]
+        let (dying, staying): (Vec<CellId>, Vec<CellId>) = self.around[from]
             .iter()
             .partition(|c| self.cell(**c).corners.contains(&to));
-        let stays_upright = |c: &u32| {
+        let stays_upright = |c: &CellId| {
             let [a, b, d] = moved(self.cell(*c)).map(|p| self.at(p));
             orient(a, b, d) > 0.0
         };
@@ -126,30 +127,30 @@ impl Work {
             let corners = self.cell(c).corners;
             corners
                 .iter()
-                .for_each(|p| self.around[*p as usize].retain(|x| *x != c));
-            self.cells[c as usize] = None;
+                .for_each(|p| self.around[*p].retain(|x| *x != c));
+            self.cells[c] = None;
         }
         for c in staying {
             let corners = moved(self.cell(c));
-            self.cells[c as usize] = Some(Cell {
+            self.cells[c] = Some(Cell {
                 corners,
                 ..*self.cell(c)
             });
-            self.around[to as usize].push(c);
+            self.around[to].push(c);
             self.queue.push_back(c);
         }
-        self.around[from as usize].clear();
+        self.around[from].clear();
         true
     }
 
-    fn cell(&self, c: u32) -> &Cell {
-        self.cells[c as usize]
+    fn cell(&self, c: CellId) -> &Cell {
+        self.cells[c]
             .as_ref()
             .expect("only live cells are listed around points")
     }
 
-    fn ring(&self, p: u32) -> Vec<u32> {
-        let mut ring: Vec<u32> = self.around[p as usize]
+    fn ring(&self, p: PointId) -> Vec<PointId> {
+        let mut ring: Vec<PointId> = self.around[p]
             .iter()
             .flat_map(|c| self.cell(*c).corners)
             .filter(|x| *x != p)
@@ -159,7 +160,7 @@ impl Work {
         ring
     }
 
-    fn common_neighbours(&self, a: u32, b: u32) -> usize {
+    fn common_neighbours(&self, a: PointId, b: PointId) -> usize {
         let ring = self.ring(b);
         self.ring(a)
             .iter()
@@ -168,7 +169,7 @@ impl Work {
     }
 
     /// Replaces the cell and its neighbour across its longest side by two that have the neighbour's label.
-    fn flip_long_side(&mut self, c: u32, cell: &Cell) -> bool {
+    fn flip_long_side(&mut self, c: CellId, cell: &Cell) -> bool {
         let k = (0..3)
             .max_by(|i, j| self.side(cell, *i).total_cmp(&self.side(cell, *j)))
             .expect("three sides");
@@ -177,7 +178,7 @@ impl Work {
             cell.corners[(k + 1) % 3],
             cell.corners[(k + 2) % 3],
         );
-        let across = self.around[a as usize]
+        let across = self.around[a]
             .iter()
             .copied()
             .find(|x| *x != c && self.cell(*x).corners.contains(&b));
@@ -186,46 +187,44 @@ impl Work {
         let Some(d) = label.corners.iter().copied().find(|p| *p != a && *p != b) else {
             return false;
         };
-        let upright = |x: u32, y: u32, z: u32| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
+        let upright = |x: PointId, y: PointId, z: PointId| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
         let better =
             self.thinness([a, d, v]).min(self.thinness([d, b, v])) > self.thinness(cell.corners);
         if !upright(a, d, v) || !upright(d, b, v) || !better {
             return false;
         }
-        self.cells[c as usize] = Some(Cell {
+        self.cells[c] = Some(Cell {
             corners: [a, d, v],
             ..label
         });
-        self.cells[other as usize] = Some(Cell {
+        self.cells[other] = Some(Cell {
             corners: [d, b, v],
             ..label
         });
-        self.around[b as usize].retain(|x| *x != c);
-        self.around[d as usize].push(c);
-        self.around[a as usize].retain(|x| *x != other);
-        self.around[v as usize].push(other);
+        self.around[b].retain(|x| *x != c);
+        self.around[d].push(c);
+        self.around[a].retain(|x| *x != other);
+        self.around[v].push(other);
         self.queue.push_back(c);
         self.queue.push_back(other);
         true
     }
 
     /// Height over the longest side: flips must make the thinner of two cells less thin, so they cannot go in circles.
-    fn thinness(&self, corners: [u32; 3]) -> f64 {
+    fn thinness(&self, corners: [PointId; 3]) -> f64 {
         let [a, b, c] = corners.map(|p| self.at(p));
         orient(a, b, c) / a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
     fn finish(self) -> (Vec<DVec2>, Vec<Cell>) {
-        let mut index = vec![u32::MAX; self.points.len()];
+        let mut index = vec![None; self.points.len()];
         let mut points = Vec::new();
         let mut cells: Vec<Cell> = self.cells.into_iter().flatten().collect();
         for corner in cells.iter_mut().flat_map(|c| &mut c.corners) {
-            let slot = &mut index[*corner as usize];
-            if *slot == u32::MAX {
-                *slot = points.len() as u32;
-                points.push(self.points[*corner as usize]);
-            }
-            *corner = *slot;
+            *corner = *index[*corner].get_or_insert_with(|| {
+                points.push(self.points[*corner]);
+                PointId::new(points.len() - 1)
+            });
         }
         (points, cells)
     }

@@ -2,6 +2,7 @@
 
 use crate::diag::Diagnostic;
 use crate::groups::ThinSupport;
+use crate::index::SupportId;
 use crate::kinds::Split;
 use crate::mimic::{RowKind, SolveError};
 use crate::sight::{Sight, Unseen};
@@ -20,7 +21,7 @@ pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnosti
 }
 
 fn too_thin(view: &str, supports: &[Support], found: &ThinSupport) -> Diagnostic {
-    let support = &supports[found.support as usize];
+    let support = &supports[found.support];
     let (back, core) = support.layer.map_or((0.0, 0.0), |l| (l.back(), l.core));
     let ThinSupport { behind_mm, .. } = found;
     Diagnostic::error(format!(
@@ -36,7 +37,7 @@ fn too_thin(view: &str, supports: &[Support], found: &ThinSupport) -> Diagnostic
 
 /// Why a mesh cannot stay whole.
 pub fn split(view: &str, supports: &[Support], found: Split) -> Diagnostic {
-    let name = |s: u32| &supports[s as usize].name;
+    let name = |s: SupportId| &supports[s].name;
     match found {
         Split::Supports([one, other]) => Diagnostic::error(format!(
             "view \"{view}\": its models lie before {} and {}, but a whole mesh has one support",
@@ -70,8 +71,8 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
         ))
         .help("try `ordering: false` in `energy`, or thicker layers (`front`, `back`)");
     };
-    let support = groups.groups[bound.group as usize].support;
-    let support = &sight.image.field.supports[support as usize].name;
+    let support = groups.groups[bound.group].support;
+    let support = &sight.image.field.supports[support].name;
     Diagnostic::error(format!(
         "view \"{view}\": {error}; the {limit} depth on {support} contradicts its neighbours (allowed there: {:.5} to {:.5} of the model's depth)",
         bound.lower, bound.upper

@@ -1,24 +1,24 @@
 //! Stretches of a section as lines.
 
-use crate::diagram::section::{Section, Stretch};
+use super::values::{Section, Stretch};
 use glam::DVec2;
 
 /// Ends that lie nearer to each other are one point, millimetres: above what merging thin cells moves, below what can be seen.
 const JOIN_MM: f64 = 0.02;
 
 /// A value at both ends of a stretch, and what it belongs to: lines end where that changes.
-pub type Value = Option<(Option<usize>, [f64; 2])>;
+pub type DepthsOfGroup = Option<(Option<usize>, [f64; 2])>;
 
 /// A line in the section and what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chain {
+pub struct Polyline {
     pub of: Option<usize>,
     pub points: Vec<DVec2>,
 }
 
 /// The lines of a value: from stretch to stretch as long as it does not jump.
-pub fn chains(section: &Section, value: impl Fn(&Stretch) -> Value) -> Vec<Chain> {
-    let mut chains: Vec<Chain> = Vec::new();
+pub fn chains(section: &Section, value: impl Fn(&Stretch) -> DepthsOfGroup) -> Vec<Polyline> {
+    let mut chains: Vec<Polyline> = Vec::new();
     for stretch in &section.stretches {
         let Some((of, [a, b])) = value(stretch) else {
             continue;
@@ -31,7 +31,7 @@ pub fn chains(section: &Section, value: impl Fn(&Stretch) -> Value) -> Vec<Chain
         });
         match goes_on {
             Some(chain) => chain.points.push(to),
-            None => chains.push(Chain {
+            None => chains.push(Polyline {
                 of,
                 points: vec![from, to],
             }),
@@ -41,15 +41,15 @@ pub fn chains(section: &Section, value: impl Fn(&Stretch) -> Value) -> Vec<Chain
 }
 
 /// The surface before it is cut.
-pub fn surface(s: &Stretch) -> Value {
+pub fn surface(s: &Stretch) -> DepthsOfGroup {
     Some((None, s.surface))
 }
 
 /// Rooms between the bounds of every group, scaled by `scale` of the group: polygons.
-pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Chain> {
+pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Polyline> {
     let side = |far: bool| {
         let scale = &scale;
-        move |s: &Stretch| -> Value {
+        move |s: &Stretch| -> DepthsOfGroup {
             let laid = s.laid?;
             let depth = if far { laid.far } else { laid.near };
             Some((Some(laid.group), depth.map(|z| scale(laid.group) * z)))
@@ -67,7 +67,7 @@ pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Chain> {
     let quad = |s: &Stretch| {
         let laid = s.laid?;
         let at = |k: usize, z: [f64; 2]| section.cut.place(s.x[k], scale(laid.group) * z[k]);
-        Some(Chain {
+        Some(Polyline {
             of: Some(laid.group),
             points: vec![
                 at(0, laid.far),
@@ -80,14 +80,14 @@ pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Chain> {
     section.stretches.iter().filter_map(quad).collect()
 }
 
-fn same_rays(a: &Chain, b: &Chain) -> bool {
+fn same_rays(a: &Polyline, b: &Polyline) -> bool {
     a.of == b.of && a.points.len() == b.points.len()
 }
 
-fn between(far: Chain, near: Chain) -> Chain {
+fn between(far: Polyline, near: Polyline) -> Polyline {
     let mut points = far.points;
     points.extend(near.points.into_iter().rev());
-    Chain { of: far.of, points }
+    Polyline { of: far.of, points }
 }
 
 /// Where the surface jumps along a ray and the model does not: both places.

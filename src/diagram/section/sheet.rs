@@ -2,14 +2,14 @@
 //!
 //! One unit of the page is a millimetre of A4 across; all three panels show the same part of the section at one scale.
 
+use super::chains::{DepthsOfGroup, Polyline, chains, rooms, surface, tears};
+use super::labels::{fitting, spread};
+use super::values::{Section, Stretch};
+use super::window::{EDGE, HEAD, LABELS, PANEL, WIDTH, Window};
 use crate::diagram::Plan;
 use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::lettering::Face;
 use crate::diagram::page::{FREE, HAIR, PAPER, QUIET, RED, TEXT, deep, pale};
-use crate::diagram::section::chains::{Chain, Value, chains, rooms, surface, tears};
-use crate::diagram::section::labels::{fitting, spread};
-use crate::diagram::section::window::{EDGE, HEAD, LABELS, PANEL, WIDTH, Window};
-use crate::diagram::section::{Section, Stretch};
 use glam::DVec2;
 
 /// Colours of groups in order of appearance: neighbours differ, colour-blind people can tell them apart.
@@ -168,7 +168,7 @@ fn line_within(drawing: &mut Drawing, view: &Window, points: &[DVec2], pen: Pen)
 }
 
 /// The eye's rays at both ends of every room, as far as its far end.
-fn rays(drawing: &mut Drawing, view: &Window, rooms: &[Chain]) {
+fn rays(drawing: &mut Drawing, view: &Window, rooms: &[Polyline]) {
     let mut ends: Vec<DVec2> = rooms
         .iter()
         .flat_map(|r| {
@@ -232,7 +232,7 @@ fn coloured(
     drawing: &mut Drawing,
     section: &Section,
     view: &Window,
-    value: impl Fn(&Stretch) -> Value,
+    value: impl Fn(&Stretch) -> DepthsOfGroup,
 ) {
     for chain in chains(section, value) {
         let ink = deep(colour(chain.of.unwrap_or_default()), 0.15);
@@ -245,10 +245,10 @@ fn names(
     drawing: &mut Drawing,
     section: &Section,
     view: &Window,
-    rooms: &[Chain],
+    rooms: &[Polyline],
     text: impl Fn(usize) -> String,
 ) {
-    let width = |c: &Chain| c.points[0].distance(c.points[c.points.len() / 2 - 1]);
+    let width = |c: &Polyline| c.points[0].distance(c.points[c.points.len() / 2 - 1]);
     let widest = |g: usize| {
         let own = rooms.iter().filter(|r| r.of == Some(g));
         own.max_by(|a, b| width(a).total_cmp(&width(b)))

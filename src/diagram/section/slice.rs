@@ -1,13 +1,13 @@
 //! What a plane through the eye cuts of a mesh.
 
-use crate::diagram::section::Cut;
+use super::plane::SectionPlane;
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// A line in the section, from one end to the other, or around a piece of the mesh.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outline {
+pub struct SlicedOutline {
     pub points: Vec<DVec2>,
     pub closed: bool,
 }
@@ -16,7 +16,7 @@ pub struct Outline {
 type Edge = (u32, u32);
 
 /// All lines that lie before the eye. A vertex on the plane counts as above it: no triangle is met in a single point.
-pub fn slice(mesh: &TriMesh, cut: &Cut) -> Vec<Outline> {
+pub fn slice(mesh: &TriMesh, cut: &SectionPlane) -> Vec<SlicedOutline> {
     let (sideways, away) = cut.frame();
     let normal = sideways.cross(away);
     let eye = cut.plane.eye;
@@ -55,7 +55,7 @@ pub fn slice(mesh: &TriMesh, cut: &Cut) -> Vec<Outline> {
     let outlines = lines.map(|line| {
         let closed = line.len() > 2 && line.first() == line.last();
         let kept = if closed { &line[1..] } else { &line[..] };
-        Outline {
+        SlicedOutline {
             points: kept.iter().map(|e| place(*e)).collect(),
             closed,
         }

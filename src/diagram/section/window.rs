@@ -1,7 +1,7 @@
 //! Which part of a section its panels show, and where they lie on the page.
 
-use crate::diagram::section::Section;
-use crate::diagram::section::chains::{chains, rooms, surface};
+use super::chains::{chains, rooms, surface};
+use super::values::Section;
 use glam::DVec2;
 
 pub const WIDTH: f64 = 297.0;

@@ -222,7 +222,7 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
         blocks.join(face[1], face[2]);
     }
     for bound in &problem.groups.bounds {
-        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group);
+        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group.0);
     }
     let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
     for [front, back] in problem.conditions.all.iter().filter_map(sides) {
@@ -258,14 +258,14 @@ fn row(condition: &Condition, s: &[f64], start: &[f64], unit: f64) -> Option<Row
         let tangent = plain_tangent(&side.anchor, s);
         terms.extend(tangent.iter().map(|(v, g)| (*v, factor * g)));
         if condition.minus.is_none() {
-            terms.push((n + side.group as usize, -condition.limit.exp()));
+            terms.push((n + side.group.at(), -condition.limit.exp()));
         }
     }
     if let Some(side) = condition.minus {
         let tangent = plain_tangent(&side.anchor, s);
         terms.extend(tangent.iter().map(|(v, g)| (*v, -g)));
         if condition.plus.is_none() {
-            terms.push((n + side.group as usize, (-condition.limit).exp()));
+            terms.push((n + side.group.at(), (-condition.limit).exp()));
         }
     }
     // In s and mu all rows are homogeneous.

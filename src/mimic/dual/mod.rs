@@ -83,7 +83,7 @@ impl Dual {
             rounds: 0,
         };
         let equalities = program.equalities.iter();
-        let equalities: Vec<Line> = equalities
+        let equalities: Vec<WeightedSum> = equalities
             .map(|(terms, value)| (&terms[..], *value))
             .collect();
         dual.take_in_hand(&equalities, true);
@@ -113,7 +113,7 @@ impl Dual {
             let lines = news
                 .iter()
                 .map(|r| (&program.rows[*r].terms[..], program.rows[*r].limit));
-            self.take_in_hand(&lines.collect::<Vec<Line>>(), false);
+            self.take_in_hand(&lines.collect::<Vec<WeightedSum>>(), false);
             news.iter().for_each(|r| self.is_in_hand[*r] = true);
             self.in_hand.extend(news);
         }
@@ -127,9 +127,9 @@ impl Dual {
         self.contacts.d = forces.map(|((f, l), t)| f - l * t).collect();
     }
 
-    fn take_in_hand(&mut self, lines: &[Line], equal: bool) {
+    fn take_in_hand(&mut self, lines: &[WeightedSum], equal: bool) {
         let n = self.rest.len();
-        let half = |work: &mut Vec<f64>, line: &Line| self.pinned.half(line.0, work);
+        let half = |work: &mut Vec<f64>, line: &WeightedSum| self.pinned.half(line.0, work);
         let halves = lines.par_iter().map_init(|| vec![0.0; n], half);
         let old = self.halves.len();
         let halves: Vec<Half> = halves.collect();
@@ -229,9 +229,9 @@ impl Dual {
 }
 
 /// Terms and limit of a row, or value of an equality.
-type Line<'a> = (&'a [(usize, f64)], f64);
+type WeightedSum<'a> = (&'a [(usize, f64)], f64);
 
 /// By how much a line is overstepped at `u`.
-fn at(line: &Line, u: &[f64]) -> f64 {
+fn at(line: &WeightedSum, u: &[f64]) -> f64 {
     line.0.iter().map(|(j, v)| v * u[*j]).sum::<f64>() - line.1
 }
