@@ -3,7 +3,7 @@
 use super::shapes;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawDatum, RawDepth, RawOutline};
-use crate::scene::text::reader::{Reader, Span, error_at, short};
+use crate::scene::text::{Reader, Span, error_at, short};
 use crate::support::{Datum, Layer, SUNK_MM};
 use glam::DVec2;
 
