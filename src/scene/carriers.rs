@@ -1,36 +1,24 @@
-//! The pillars of a scene and their base: listed, included from a layout file, or to be found.
+//! All that carries reliefs: pillars on their base, listed, included from a layout file or to be found, and other supports.
 
-use super::checks::{self, Eye};
-use super::resolve::{Purpose, ReadFile};
+use super::checks;
+use super::language::raw::{RawAuto, RawForest, RawForestChoice, RawScene};
+use super::layout::included::{Included, included};
+use super::layout::{Around, Room, as_written, auto, region};
+use super::request::Purpose;
+use super::supports::bases::{base, has_size};
+use super::supports::bodies::bodies;
+use super::supports::depths::{Wish, layer};
+use super::supports::pillars::{Colonnade, PillarEntry, some_entries};
+use super::text::{Field, Reader, Span, error_at};
+use super::views::Eye;
 use crate::planner::{Adjustment, Brief};
-use crate::scene::language::raw::{RawAuto, RawForest, RawForestChoice, RawScene};
-use crate::scene::layout::auto::{self, as_written};
-use crate::scene::layout::included::{Included, included};
-use crate::scene::layout::region::{self, Room};
-use crate::scene::resolved::Printer;
-use crate::scene::supports::bases;
-use crate::scene::supports::bodies;
-use crate::scene::supports::depths::{Wish, layer};
-use crate::scene::supports::pillars::{Entry, Supports, some_entries};
-use crate::scene::text::reader::{Reader, Span, error_at};
-use crate::scene::text::spanned::Field;
 use crate::support::Support;
 use glam::DVec2;
 
-/// What of the scene the pillars depend on.
-pub struct Around<'a> {
-    pub read: ReadFile<'a>,
-    pub purpose: Purpose,
-    pub printer: &'a Printer,
-    /// Names of the views that could be read, and how many there should be.
-    pub views: Vec<&'a str>,
-    pub view_count: usize,
-}
-
-/// What the scene says of pillars and base.
+/// What the scene says of pillars, base and other supports.
 #[derive(Default)]
-pub struct Forest {
-    supports: Supports,
+pub struct Carriers {
+    colonnade: Colonnade,
     /// What is to be found or mended.
     brief: Option<Brief>,
     /// Where pillars are to be found.
@@ -41,33 +29,30 @@ pub struct Forest {
     bodies: Vec<Support>,
 }
 
-/// Reads pillars, base and depth layers.
-pub fn forest(reader: &mut Reader, raw: &RawScene, whole: &Span, around: &Around) -> Forest {
+/// Reads pillars, base, other supports and depth layers.
+pub fn carriers(
+    reader: &mut Reader,
+    raw: &RawScene,
+    scene_span: &Span,
+    around: &Around,
+) -> Carriers {
     let depth = match reader.given(&raw.depth) {
         Some((depth, span)) => layer(reader, depth, &span, &Wish::default()),
         None => Wish::default(),
     };
-    let mut forest = Forest {
-        bodies: bodies::bodies(reader, &raw.supports, &depth, around.read),
-        ..Forest::default()
+    let mut carriers = Carriers {
+        bodies: bodies(reader, &raw.supports, &depth, around.read),
+        ..Carriers::default()
     };
     let others = matches!(raw.supports, Field::Given(_));
     if others && matches!(raw.pillars, Field::Missing) {
-        // Bodies stand on a base only if there is one.
-        if matches!(raw.base, Field::Given(_)) {
-            let held: Vec<DVec2> = forest
-                .bodies
-                .iter()
-                .flat_map(Support::outline)
-                .copied()
-                .collect();
-            forest.supports.base = bases::base(reader, &raw.base, &held, None);
-        }
-        return forest;
+        carriers.stand_bodies(reader, raw);
+        return carriers;
     }
-    let Some((pillars, span)) = reader.required(&raw.pillars, "pillars", "the scene", whole) else {
-        forest.supports.base = bases::base(reader, &raw.base, &[], None);
-        return forest;
+    let pillars = reader.required(&raw.pillars, "pillars", "the scene", scene_span);
+    let Some((pillars, span)) = pillars else {
+        carriers.colonnade.base = base(reader, &raw.base, &[], None);
+        return carriers;
     };
     let found = around.purpose == Purpose::Mend
         || matches!(pillars, RawForest::Choice(c) if matches!(&c.value, Ok(RawForestChoice::Auto(_))));
@@ -86,15 +71,15 @@ pub fn forest(reader: &mut Reader, raw: &RawScene, whole: &Span, around: &Around
                 return planned(reader, raw, (auto, &span), &depth, around);
             }
             Some(RawForestChoice::File(file)) => {
-                forest.included = file_of(reader, file, &span, &depth, around);
-                let included = forest.included.as_mut();
+                carriers.included = file_of(reader, file, &span, &depth, around);
+                let included = carriers.included.as_mut();
                 included.map(|i| std::mem::take(&mut i.entries))
             }
             None => None,
         },
     };
-    forest.list(reader, raw, listed.unwrap_or_default(), &span, around);
-    forest
+    carriers.list(reader, raw, listed.unwrap_or_default(), &span, around);
+    carriers
 }
 
 fn file_of(
@@ -115,13 +100,13 @@ fn planned(
     (auto, span): (&RawAuto, &Span),
     depth: &Wish,
     around: &Around,
-) -> Forest {
+) -> Carriers {
     let depth = match reader.given(&auto.depth) {
         Some((own, at)) => layer(reader, own, &at, depth),
         None => depth.clone(),
     };
     let fixed = auto::fixed(reader, auto, &depth);
-    let mut supports = Supports::of(fixed.iter().map(Entry::row));
+    let mut colonnade = Colonnade::of(fixed.iter().map(PillarEntry::batch));
     let given = reader.given(&auto.region);
     let room_span = given.as_ref().map_or(span, |(_, at)| at).clone();
     let given = given.map(|(raw, at)| region::region(reader, raw, &at));
@@ -129,40 +114,49 @@ fn planned(
     let region = match given {
         Some(region) => {
             let region = region.unwrap_or_default();
-            let held = [region.clone(), supports.corners()].concat();
-            supports.base = bases::base(reader, &raw.base, &held, loose);
+            let held = [region.clone(), colonnade.corners()].concat();
+            colonnade.base = base(reader, &raw.base, &held, loose);
             region
         }
-        None if bases::has_size(&raw.base) => {
-            supports.base = bases::base(reader, &raw.base, &[], loose);
-            let base = supports.base.as_ref();
+        None if has_size(&raw.base) => {
+            colonnade.base = base(reader, &raw.base, &[], loose);
+            let base = colonnade.base.as_ref();
             base.map_or(Vec::new(), |b| region::on_base(reader, b, span))
         }
         None => {
             let region = region::usual();
-            let held = [region.clone(), supports.corners()].concat();
-            supports.base = bases::base(reader, &raw.base, &held, loose);
+            let held = [region.clone(), colonnade.corners()].concat();
+            colonnade.base = base(reader, &raw.base, &held, loose);
             region
         }
     };
     let (brief, spans) = auto::brief(reader, (auto, span), region, &fixed, &depth, around);
     // Without a region there is an error already, and nothing to check.
     let room = (!brief.region.outline().is_empty()).then(|| auto::room(&brief, &room_span, &spans));
-    Forest {
-        supports,
+    Carriers {
+        colonnade,
         brief: Some(brief),
         room,
-        ..Forest::default()
+        ..Carriers::default()
     }
 }
 
-impl Forest {
+impl Carriers {
+    /// Bodies stand on a base only if there is one.
+    fn stand_bodies(&mut self, reader: &mut Reader, raw: &RawScene) {
+        if matches!(raw.base, Field::Given(_)) {
+            let outlines = self.bodies.iter().flat_map(Support::outline);
+            let held: Vec<DVec2> = outlines.copied().collect();
+            self.colonnade.base = base(reader, &raw.base, &held, None);
+        }
+    }
+
     /// Pillars that are listed, put up on their base.
     fn list(
         &mut self,
         reader: &mut Reader,
         raw: &RawScene,
-        entries: Vec<Entry>,
+        entries: Vec<PillarEntry>,
         span: &Span,
         around: &Around,
     ) {
@@ -171,10 +165,10 @@ impl Forest {
             true => entries.into_iter().map(as_written).collect(),
             false => entries,
         };
-        self.supports = Supports::of(entries.iter().map(Entry::row));
-        let (n, corners) = (self.supports.pillars.len(), self.supports.corners());
+        self.colonnade = Colonnade::of(entries.iter().map(PillarEntry::batch));
+        let (n, corners) = (self.colonnade.pillars.len(), self.colonnade.corners());
         let loose = (n > 1).then(|| format!("the {n} pillars"));
-        let base = bases::base(reader, &raw.base, &corners, loose);
+        let base = base(reader, &raw.base, &corners, loose);
         if mend {
             let region = match &base {
                 Some(base) => region::on_base(reader, base, span),
@@ -182,15 +176,15 @@ impl Forest {
             };
             self.brief = Some(auto::mending(&entries, region, around));
         }
-        self.supports.base = base;
+        self.colonnade.base = base;
     }
 
     /// Rules that join several values.
     pub fn check(&self, reader: &mut Reader, eyes: &[Eye], around: &Around) {
         let before = reader.problems.len();
         let checked = checks::Checked {
-            pillars: &self.supports.pillars,
-            base: self.supports.base.as_ref(),
+            pillars: &self.colonnade.pillars,
+            base: self.colonnade.base.as_ref(),
             room: self.room.as_ref(),
             mend: around.purpose == Purpose::Mend,
         };
@@ -206,7 +200,7 @@ impl Forest {
     pub fn most_pillars(&self) -> usize {
         match (&self.brief, &self.room) {
             (Some(brief), Some(_)) => brief.count[1],
-            _ => self.supports.pillars.len(),
+            _ => self.colonnade.pillars.len(),
         }
     }
 
@@ -227,7 +221,7 @@ impl Forest {
 
     /// The solids, and what is to be done about them.
     pub fn finished(self) -> (Vec<Support>, Option<Brief>) {
-        let mut supports = self.supports.solids();
+        let mut supports = self.colonnade.solids();
         supports.extend(self.bodies);
         (supports, self.brief)
     }

@@ -1,4 +1,4 @@
-//! Scenes: the user's RON text (`language::raw`) and what it means (`resolve`), in which nothing is left to decide.
+//! Scenes: the user's RON text and what it means.
 
 mod carriers;
 mod checks;
@@ -7,6 +7,7 @@ mod language;
 mod layout;
 mod models;
 mod options;
+mod request;
 mod resolve;
 mod resolved;
 mod supports;
@@ -17,7 +18,8 @@ pub use language::quality::{Quality, at_quality};
 pub use language::schema::schema;
 pub use language::template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 pub use layout::laid::{laid_out, layout_text};
-pub use resolve::{ReadFile, resolve, resolve_to_mend};
+pub use request::ReadFile;
+pub use resolve::{resolve, resolve_to_mend};
 pub use resolved::{Output, Printer, Scene};
-pub use text::reader::nearest;
+pub use text::nearest;
 pub use text::set::set;

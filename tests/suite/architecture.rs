@@ -1,4 +1,8 @@
-//! What may name what: the order of the modules, the crates each of them owns, and what the library keeps its hands off.
+//! What may name what: the order of the modules, no circles among files, the crates each module owns, and what the library keeps its
+//! hands off.
+
+mod circles;
+mod paths;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -4,3 +4,4 @@ pub mod quality;
 pub mod raw;
 pub mod schema;
 pub mod template;
+mod units;

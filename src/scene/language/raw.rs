@@ -3,21 +3,10 @@
 //! Every field may be missing and every value may be wrong on its own; `resolve` decides. Unknown fields are errors.
 //! What the fields mean is told by `schema`, which a test compares with these types.
 
-use crate::scene::text::spanned::{Field, Spanned, options, own_text};
+use crate::scene::text::spanned::{Field, List, Spanned, options, own_text};
+use crate::scene::text::wanted::{Wanted, wanted};
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
-
-/// What a value should have been, for error messages.
-pub trait Wanted {
-    const WANTED: &'static str;
-}
-
-/// A list whose items fail one by one.
-pub type List<T> = Vec<Spanned<T>>;
-
-macro_rules! wanted {
-    ($($kind:ty => $text:expr;)*) => { $(impl Wanted for $kind { const WANTED: &'static str = $text; })* };
-}
 
 /// Declares structs of optional fields and enums, all of which refuse what they do not know.
 macro_rules! raw {
@@ -376,13 +365,6 @@ impl<'de, T: DeserializeOwned + Copy> Deserialize<'de> for RawRange<T> {
 }
 
 wanted! {
-    String => "text in straight double quotes";
-    f64 => "a number";
-    u32 => "a whole number";
-    bool => "true or false";
-    [f64; 2] => "a point `(x, y)`";
-    [f64; 3] => "a point `(x, y, z)`";
-    [f64; 4] => "a row of four numbers `(a, b, c, d)`";
     RawUnit => "mm, cm, m or inch";
     RawPlace => "`Fit(...)` or `Matrix([(...), (...), (...), (...)])`";
     RawVolume => "`Box(...)`, `Ball(...)` or `Painted(\"attribute\")`";
@@ -407,8 +389,4 @@ wanted! {
     RawPrefer => "Tolerance or Camouflage";
     RawContested => "First, Largest or Error";
     RawWeight => "Area or SolidAngle";
-}
-
-impl<T> Wanted for List<T> {
-    const WANTED: &'static str = "a list `[...]`";
 }

@@ -6,7 +6,7 @@ use crate::support::Datum;
 use std::fmt::Write;
 
 /// One struct or choice of the language.
-pub struct Section {
+pub struct Chapter {
     /// As it is written: `Round(...)`, or a plain name for a struct without one.
     pub title: &'static str,
     pub about: &'static str,
@@ -47,16 +47,16 @@ const REQUIRED: &str = "required";
 /// The language as text.
 pub fn schema() -> String {
     let mut out = INTRO.to_string();
-    for section in sections() {
+    for chapter in chapters() {
         // Writing to a String cannot fail.
-        let _ = write!(out, "\n{}\n    // {}\n", section.title, section.about);
-        let width = section
+        let _ = write!(out, "\n{}\n    // {}\n", chapter.title, chapter.about);
+        let width = chapter
             .fields
             .iter()
             .map(|f| f.name.len() + f.kind.len())
             .max()
             .unwrap_or(0);
-        for f in &section.fields {
+        for f in &chapter.fields {
             let pad = " ".repeat(width - f.name.len() - f.kind.len());
             let _ = writeln!(
                 out,
@@ -68,23 +68,23 @@ pub fn schema() -> String {
     out
 }
 
-/// All sections in reading order.
-pub fn sections() -> Vec<Section> {
+/// All chapters in reading order.
+pub fn chapters() -> Vec<Chapter> {
     [
-        scene_sections(),
-        pillar_sections(),
-        body_sections(),
-        place_sections(),
-        planning_sections(),
-        other_sections(),
+        scene_chapters(),
+        pillar_chapters(),
+        body_chapters(),
+        place_chapters(),
+        planning_chapters(),
+        other_chapters(),
     ]
     .into_iter()
     .flatten()
     .collect()
 }
 
-fn section(title: &'static str, about: &'static str, fields: Vec<FieldDoc>) -> Section {
-    Section {
+fn chapter(title: &'static str, about: &'static str, fields: Vec<FieldDoc>) -> Chapter {
+    Chapter {
         title,
         about,
         fields,
@@ -92,9 +92,9 @@ fn section(title: &'static str, about: &'static str, fields: Vec<FieldDoc>) -> S
 }
 
 #[rustfmt::skip] // a table
-fn scene_sections() -> Vec<Section> {
+fn scene_chapters() -> Vec<Chapter> {
     vec![
-        section("scene", "The whole file.", vec![
+        chapter("scene", "The whole file.", vec![
             field("title", "text", format!("{:?}", defaults::TITLE), "for people: report, 3MF, plan"),
             field("units", "mm | cm | m | inch", "mm", "of every length in this file"),
             field("models", "[model, ...]", REQUIRED, "what is to be seen"),
@@ -110,7 +110,7 @@ fn scene_sections() -> Vec<Section> {
             field("printer", "printer", "see printer", "what the checks have in mind"),
             field("output", "output", "see output", "which files are written"),
         ]),
-        section("model", "A mesh file and where it stands.", vec![
+        chapter("model", "A mesh file and where it stands.", vec![
             field("name", "text", REQUIRED, "what views call it"),
             field("file", "text", REQUIRED, "OBJ, STL or PLY in the scene's folder or below, or by name in --models DIR"),
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
@@ -118,20 +118,20 @@ fn scene_sections() -> Vec<Section> {
             field("regions", "[region, ...]", "[]", "vertices that count more or less, or are free of the layer"),
             field("detail", "count", "the scene's", "the most vertices it may have, if that is less than the scene's"),
         ]),
-        section("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
+        chapter("region", "Vertices of a model; where regions overlap their weights are multiplied.", vec![
             field("shape", "Box(...) | Ball(...) | Painted(text)", REQUIRED, "Painted: by an attribute of the file, a PLY vertex property or red, green, blue of its colours: its values (0 to 1000) are weights, or more than 0.5 is inside if `free`"),
             field("weight", "number", "1", "factor on the weight of its vertices, 0.001 to 1000; counts squared"),
             field("free", "true | false", "false", "its vertices have no depth bounds (with relief: Whole they only stay inside the support's far side); a view with such vertices has no steps"),
         ]),
-        section("Box(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+        chapter("Box(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
             field("from", "(x, y, z)", REQUIRED, "a corner"),
             field("to", "(x, y, z)", REQUIRED, "the opposite corner"),
         ]),
-        section("Ball(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
+        chapter("Ball(...)", "In the coordinates and the unit of the model's file, before it is placed.", vec![
             field("centre", "(x, y, z)", REQUIRED, "middle"),
             field("radius", "number", REQUIRED, "in the unit of the file"),
         ]),
-        section("Fit(...)", "Upright, turned to the eye, at one size: give height, width or largest, or none.", vec![
+        chapter("Fit(...)", "Upright, turned to the eye, at one size: give height, width or largest, or none.", vec![
             field("height", "length", "as the file", "scaled to this height"),
             field("width", "length", "as the file", "scaled to this width, left to right as the eye sees it"),
             field("largest", "length", "as the file", "scaled until the longest side is this long"),
@@ -141,7 +141,7 @@ fn scene_sections() -> Vec<Section> {
             field("spin", "degrees", "0", "turned on by this much about the vertical"),
             field("at", "(x, y, z)", "(0, 0, 0)", "where the middle of the model's underside goes"),
         ]),
-        section("view", "One eye and what it sees.", vec![
+        chapter("view", "One eye and what it sees.", vec![
             field("name", "text", REQUIRED, "also the name of its picture: letters, digits, - and _"),
             field("eye", "(x, y, z)", "see from", "where the eye is: either this or `from`"),
             field("from", "(x, y, z)", "see eye", "the direction from which an eye at infinity looks, all of whose rays are parallel"),
@@ -153,35 +153,35 @@ fn scene_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
-fn pillar_sections() -> Vec<Section> {
+fn pillar_chapters() -> Vec<Chapter> {
     let facets = defaults::ROUND_FACETS;
     vec![
-        section("pillars", "Pillars of one shape; a scene may have several such entries.", vec![
+        chapter("pillars", "Pillars of one shape; a scene may have several such entries.", vec![
             field("name", "text", "\"p\"", "pillars are numbered p1, p2, ... or name-1, name-2, ..."),
             field("shape", "Round(...) | Polygon(...) | Rectangle(...) | Profile(...)", REQUIRED, "cross-section"),
             field("height", "length", format!("{} mm", defaults::PILLAR_HEIGHT), "above the base"),
             field("places", "At([(x, y), ...]) | Grid(...) | Ring(...) | Hex(...)", REQUIRED, "where their axes stand"),
             field("depth", "depth", "the scene's", "fields given here replace the scene's"),
         ]),
-        section("Round(...)", "A circle, printed as a regular polygon inside it.", vec![
+        chapter("Round(...)", "A circle, printed as a regular polygon inside it.", vec![
             field("radius", "length", REQUIRED, "of the circle"),
             field("facets", "count", facets, "8 to 512"),
         ]),
-        section("Polygon(...)", "A regular polygon.", vec![
+        chapter("Polygon(...)", "A regular polygon.", vec![
             field("sides", "count", REQUIRED, "3 to 512"),
             field("radius", "length", REQUIRED, "from the axis to a corner"),
             field("turn", "degrees", "0", "direction of the first corner"),
         ]),
-        section("Rectangle(...) as a pillar", "A rectangle around the axis.", vec![
+        chapter("Rectangle(...) as a pillar", "A rectangle around the axis.", vec![
             field("width", "length", REQUIRED, "along x before the turn"),
             field("depth", "length", REQUIRED, "along y before the turn"),
             field("turn", "degrees", "0", "about the axis"),
         ]),
-        section("Profile(...)", "Any simple polygon.", vec![
+        chapter("Profile(...)", "Any simple polygon.", vec![
             field("points", "[(x, y), ...]", REQUIRED, "corners in order, relative to the axis"),
             field("turn", "degrees", "0", "about the axis"),
         ]),
-        section("depth", "The room of the reliefs.", vec![
+        chapter("depth", "The room of the reliefs.", vec![
             field("from", "Axis | Face | Surface", format!("{}; Face on plates and strips, Surface on other supports", datum()), "measured from the upright plane through a pillar's axis that faces the eye, square to a plate's face, or along the rays from the surface"),
             field("hits", "(1, 1) | (1, 2)", "(1, 1)", "where rays meet the support: around the first hit, or from there through the wall, up to `core` before rays leave it (not on pillars; `back` plays no part)"),
             field("front", "length", format!("{} mm", defaults::LAYER.front), "towards the eye"),
@@ -193,7 +193,7 @@ fn pillar_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
-fn body_sections() -> Vec<Section> {
+fn body_chapters() -> Vec<Chapter> {
     let thick = format!("{} mm", defaults::BODY_THICKNESS);
     let name = |usual: &str| field("name", "text", format!("{usual:?}"), "numbered where several have it");
     let at = || field("at", "(x, y, z)", "(0, 0, 0)", "middle of the lower edge of its face");
@@ -201,14 +201,14 @@ fn body_sections() -> Vec<Section> {
     let lean = || field("lean", "degrees", "0", "backwards: at 90 it lies on its back");
     let depth = || field("depth", "depth", "the scene's", "fields given here replace the scene's");
     vec![
-        section("Plate(...)", "A box with a flat face: the layer is square to it.", vec![
+        chapter("Plate(...)", "A box with a flat face: the layer is square to it.", vec![
             name("plate"),
             field("width", "length", REQUIRED, "of the face"),
             field("height", "length", REQUIRED, "of the face"),
             field("thickness", "length", &thick, "behind the face"),
             at(), facing(), lean(), depth(),
         ]),
-        section("Strips(...)", "Upright plates side by side.", vec![
+        chapter("Strips(...)", "Upright plates side by side.", vec![
             name("strip"),
             field("count", "count", REQUIRED, "of plates, up to 100"),
             field("width", "length", REQUIRED, "of one"),
@@ -218,7 +218,7 @@ fn body_sections() -> Vec<Section> {
             field("turn", "degrees", "0", "of each against its left neighbour: more than 0 folds the row back at its ends"),
             at(), facing(), depth(),
         ]),
-        section("Stairs(...)", "Steps that go up away from the viewer; every riser and tread carries pieces of its own.", vec![
+        chapter("Stairs(...)", "Steps that go up away from the viewer; every riser and tread carries pieces of its own.", vec![
             name("stairs"),
             field("steps", "count", REQUIRED, "up to 200"),
             field("width", "length", REQUIRED, "of the steps"),
@@ -226,7 +226,7 @@ fn body_sections() -> Vec<Section> {
             field("going", "length", format!("{} mm", defaults::STEP[1]), "depth of one"),
             at(), facing(), depth(),
         ]),
-        section("Groove(...)", "A block with a V-shaped groove from bottom to top.", vec![
+        chapter("Groove(...)", "A block with a V-shaped groove from bottom to top.", vec![
             name("groove"),
             field("width", "length", REQUIRED, "of the block"),
             field("height", "length", REQUIRED, "of the block"),
@@ -235,7 +235,7 @@ fn body_sections() -> Vec<Section> {
             field("deep", "length", REQUIRED, "depth of the groove in the middle"),
             at(), facing(), lean(), depth(),
         ]),
-        section("Wave(...)", "A block whose face is any height field.", vec![
+        chapter("Wave(...)", "A block whose face is any height field.", vec![
             name("wave"),
             field("width", "length", REQUIRED, "of the face"),
             field("height", "length", REQUIRED, "of the face"),
@@ -244,12 +244,12 @@ fn body_sections() -> Vec<Section> {
             field("pitch", "length", format!("{} mm", defaults::WAVE_PITCH), "largest distance of its points"),
             at(), facing(), lean(), depth(),
         ]),
-        section("Image(...)", "Heights from a PNG stretched over the face.", vec![
+        chapter("Image(...)", "Heights from a PNG stretched over the face.", vec![
             field("file", "text", REQUIRED, "in the scene's folder or below"),
             field("from", "length", "0 mm", "height of black"),
             field("to", "length", REQUIRED, "height of white"),
         ]),
-        section("Mesh(...)", "Any mesh: closed, or with a border and a thickness.", vec![
+        chapter("Mesh(...)", "Any mesh: closed, or with a border and a thickness.", vec![
             name("mesh"),
             field("file", "text", REQUIRED, "as a model's"),
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
@@ -262,10 +262,10 @@ fn body_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
-fn place_sections() -> Vec<Section> {
+fn place_chapters() -> Vec<Chapter> {
     let centre = || field("centre", "(x, y)", "(0, 0)", "middle of the arrangement");
     vec![
-        section("Grid(...)", "Rows and columns.", vec![
+        chapter("Grid(...)", "Rows and columns.", vec![
             field("columns", "count", REQUIRED, "along x"),
             field("rows", "count", REQUIRED, "along y"),
             field("pitch", "length", REQUIRED, "between axes"),
@@ -273,26 +273,26 @@ fn place_sections() -> Vec<Section> {
             centre(),
             field("turn", "degrees", "0", "about the centre"),
         ]),
-        section("Ring(...)", "Evenly on a circle.", vec![
+        chapter("Ring(...)", "Evenly on a circle.", vec![
             field("count", "count", REQUIRED, "number of pillars"),
             field("radius", "length", REQUIRED, "of the circle through the axes"),
             centre(),
             field("turn", "degrees", "0", "direction of the first pillar"),
         ]),
-        section("Hex(...)", "A honeycomb: one in the middle, hexagons around it.", vec![
+        chapter("Hex(...)", "A honeycomb: one in the middle, hexagons around it.", vec![
             field("rings", "count", REQUIRED, "0 for one pillar, 1 for 7, 2 for 19, ..."),
             field("pitch", "length", REQUIRED, "between neighbours"),
             centre(),
             field("turn", "degrees", "0", "about the centre"),
         ]),
-        section("Disc(...)", "A round base; its top is z = 0.", vec![
+        chapter("Disc(...)", "A round base; its top is z = 0.", vec![
             field("radius", "length", "fits all pillars", "of the disc"),
             field("thickness", "length", format!("{} mm", defaults::BASE_THICKNESS), "downwards from z = 0"),
             field("margin", "length", format!("{} mm", defaults::BASE_MARGIN), "beyond the pillars, if no radius is given"),
             field("centre", "(x, y)", "middle of the pillars", "of the disc"),
             field("facets", "count", defaults::BASE_FACETS, "8 to 512"),
         ]),
-        section("Rectangle(...) as base", "A rectangular base; its top is z = 0.", vec![
+        chapter("Rectangle(...) as base", "A rectangular base; its top is z = 0.", vec![
             field("width", "length", "fits all pillars", "along x"),
             field("depth", "length", "fits all pillars", "along y"),
             field("thickness", "length", format!("{} mm", defaults::BASE_THICKNESS), "downwards from z = 0"),
@@ -303,10 +303,10 @@ fn place_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
-fn planning_sections() -> Vec<Section> {
+fn planning_chapters() -> Vec<Chapter> {
     let ([fewest, most], matters) = (defaults::COUNT, defaults::MATTERS);
     vec![
-        section("Auto(...)", "Pillars that `plan` and `build` find for the views: all models covered, nothing in the way.", vec![
+        chapter("Auto(...)", "Pillars that `plan` and `build` find for the views: all models covered, nothing in the way.", vec![
             field("region", "Disc(...) | Rectangle(...) | Polygon(...)", format!("the base less {} mm, if its size is given; else Disc(radius: {} mm)", defaults::REGION_RIM, defaults::REGION_RADIUS), "where they may stand, with their whole width"),
             field("shapes", "[Round(...) | Polygon(...) | ..., ...]", format!("[Round(radius: {} mm)]", defaults::PLANNED_RADIUS), "what they may be, as in pillars"),
             field("sizes", "factor | (factor, factor)", "1", "on the lengths of every shape, from the smallest to the largest in even steps"),
@@ -323,36 +323,36 @@ fn planning_sections() -> Vec<Section> {
             field("matters", "matters", "see matters", "what the search looks for"),
             field("models", "models", "see models", "how far a plan may change the models of each view"),
         ]),
-        section("Disc(...) as region", "A disc.", vec![
+        chapter("Disc(...) as region", "A disc.", vec![
             field("radius", "length", REQUIRED, "of the disc"),
             field("centre", "(x, y)", "(0, 0)", "of the disc"),
         ]),
-        section("Rectangle(...) as region", "A rectangle.", vec![
+        chapter("Rectangle(...) as region", "A rectangle.", vec![
             field("width", "length", REQUIRED, "along x before the turn"),
             field("depth", "length", REQUIRED, "along y before the turn"),
             field("centre", "(x, y)", "(0, 0)", "middle of the rectangle"),
             field("turn", "degrees", "0", "about the centre"),
         ]),
-        section("Polygon(...) as region", "Any simple polygon.", vec![
+        chapter("Polygon(...) as region", "Any simple polygon.", vec![
             field("points", "[(x, y), ...]", REQUIRED, "corners in order"),
         ]),
-        section("matters", "Weights: 0 does not matter, 2 matters twice as much as 1.", vec![
+        chapter("matters", "Weights: 0 does not matter, 2 matters twice as much as 1.", vec![
             field("camouflage", "number", matters.camouflage, "models are hard to recognise from elsewhere"),
             field("tolerance", "number", matters.tolerance, "eyes may move"),
             field("pillars", "number", matters.pillars, "few pillars"),
             field("spread", "number", matters.spread, "pillars are spread evenly"),
         ]),
-        section("models", "Limits, to either side, within which a plan may change the models of a view together.", vec![
+        chapter("models", "Limits, to either side, within which a plan may change the models of a view together.", vec![
             field("turn", "degrees", "0", "about the vertical"),
             field("scale", "factor", "1", "larger by this, or smaller by its inverse; 1 to 2"),
             field("shift", "length", "0", "along the ground"),
         ]),
-        section("layout file", "What `plan` writes and File(\"layout.ron\") reads: [pillars, ...], or a struct.", vec![
+        chapter("layout file", "What `plan` writes and File(\"layout.ron\") reads: [pillars, ...], or a struct.", vec![
             field("units", "mm | cm | m | inch", "mm", "of every length in that file"),
             field("pillars", "[pillars, ...]", REQUIRED, "as if they stood in the scene"),
             field("adjust", "[adjustment, ...]", "[]", "changes to the models of views"),
         ]),
-        section("adjustment", "The models of a view together, about the middle of their underside, after they are placed.", vec![
+        chapter("adjustment", "The models of a view together, about the middle of their underside, after they are placed.", vec![
             field("view", "text", REQUIRED, "name of the view"),
             field("turn", "degrees", "0", "about the vertical"),
             field("scale", "factor", "1", "on their size"),
@@ -362,16 +362,16 @@ fn planning_sections() -> Vec<Section> {
 }
 
 #[rustfmt::skip] // a table
-fn other_sections() -> Vec<Section> {
+fn other_chapters() -> Vec<Chapter> {
     let (printer, output, steps) = (defaults::PRINTER, defaults::OUTPUT, defaults::STEPS);
     vec![
-        section("Normal(...)", "Keeps the normals the eye sees.", vec![
+        chapter("Normal(...)", "Keeps the normals the eye sees.", vec![
             field("steps", "Never | Allowed(...)", "Allowed() with two pillars or more", "whether the surface may be torn along the eye's rays, where it does not see it"),
             field("weight", "Area | SolidAngle", weight(), "how much a face counts: its area, or what the eye sees of it"),
             field("ordering", "true | false", defaults::NORMAL.ordering, "what lies in front stays in front"),
             field("reweight", "count", defaults::NORMAL.reweight, "rounds that gather what error is left in few faces, 0 to 20"),
         ]),
-        section("Allowed(...)", "Steps: the surface may fall into pieces at different depths. In the report: `steps`.", vec![
+        chapter("Allowed(...)", "Steps: the surface may fall into pieces at different depths. In the report: `steps`.", vec![
             field("least", "length", format!("{} mm", steps.limits.least_mm), "lowest step; where pieces are nearer they stay joined"),
             field("highest", "length", "no limit", "highest step"),
             field("tolerance", "length", "no limit", "how far the eye may move sideways before a step opens by two arc-minutes"),
@@ -380,7 +380,7 @@ fn other_sections() -> Vec<Section> {
             field("narrowest", "length", "the printer's nozzle", "narrower strips between steps are given to a neighbour"),
             field("prefer", "Tolerance | Camouflage", "Tolerance", "where pieces are free: small steps, or large ones that confuse from elsewhere"),
         ]),
-        section("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
+        chapter("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
             field("hidden_weight", "number", defaults::CURVATURE.hidden_weight, "what hidden vertices count; visible ones count 1"),
             field("ordering", "true | false", defaults::CURVATURE.ordering, "what lies in front stays in front"),
             field("scale_invariant", "true | false", defaults::CURVATURE.scale_invariant, "parts may change their scale; false: the paper's Eq 7 without its last factor"),
@@ -389,18 +389,18 @@ fn other_sections() -> Vec<Section> {
             field("iterate", "count", defaults::CURVATURE.iterate, "most rounds with the Laplacian of the deformed surface (Eq 6), 0 to 100, best with hidden_weight: 1; in the report: `iterated`"),
             field("form", "Quadratic | Conic", form(), "of the program: Conic is the paper's appendix; same optimum"),
         ]),
-        section("Whole(...)", "Whole closed models are deformed along the eye's rays, front, back and what is hidden; their outline lies on the support, free regions are held by nothing. Energy: Normal or Curvature.", vec![
+        chapter("Whole(...)", "Whole closed models are deformed along the eye's rays, front, back and what is hidden; their outline lies on the support, free regions are held by nothing. Energy: Normal or Curvature.", vec![
             field("bounded", "Outline | Seen", "Seen", "what else is held: nothing, or all that is seen within `front` of the support"),
         ]),
-        section("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
+        chapter("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
             field("compression", "number", defaults::GRADIENT.compression, "alpha of log(1 + alpha g) / alpha, 0 to 1000: more evens out steep and gentle slopes; 0 is Linear without silhouettes"),
         ]),
-        section("printer", "Used by warnings, print checks and `build --split`.", vec![
+        chapter("printer", "Used by warnings, print checks and `build --split`.", vec![
             field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
             field("bed", "(x, y, z)", format!("{:?} mm", printer.bed), "largest print"),
             field("clearance", "length", format!("{} mm", printer.clearance), "room between peg and socket, pin and hole, plate and plate"),
         ]),
-        section("output", "What `build` writes besides report.json.", vec![
+        chapter("output", "What `build` writes besides report.json.", vec![
             field("forest_3mf", "true | false", output.forest_3mf, "for slicers: named and coloured objects"),
             field("forest_stl", "true | false", output.forest_stl, "one closed solid"),
             field("forest_glb", "true | false", output.forest_glb, "for viewers, with the eyes as cameras"),
@@ -451,7 +451,7 @@ fn weight() -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::sections;
+    use super::chapters;
     use crate::scene::language::raw;
     use ron::error::Error;
     use serde::de::DeserializeOwned;
@@ -520,7 +520,7 @@ mod tests {
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),
         ];
-        let documented: Vec<(&str, Vec<&str>)> = sections()
+        let documented: Vec<(&str, Vec<&str>)> = chapters()
             .iter()
             .map(|s| (s.title, s.fields.iter().map(|f| f.name).collect()))
             .collect();

@@ -4,8 +4,7 @@ use crate::planner::{Freedom, Matters};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawFreedom, RawMatters, RawRange, RawTolerance};
 use crate::scene::resolved::Printer;
-use crate::scene::text::reader::{Reader, Span, error_at, short, warning_at};
-use crate::scene::text::spanned::{Field, Spanned};
+use crate::scene::text::{Field, Reader, Span, Spanned, error_at, short, warning_at};
 
 /// A range the right way round.
 pub fn range(

@@ -1,23 +1,23 @@
 //! What is wanted of pillars that are to be found: `Auto(...)`, and lists that are to be mended.
 
 use super::aims::{count, freedom, matters, narrow, range, tolerance};
+use super::around::Around;
 use super::region::Room;
+use super::written::{as_written, rounded};
 use crate::planner::{Brief, Care, Freedom, Pillar, Region, Shape};
-use crate::scene::carriers::Around;
-use crate::scene::checks::Standing;
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawAuto, RawRange, RawShape};
-use crate::scene::supports::cross_section::{Section, rounded, section};
+use crate::scene::language::raw::{RawAuto, RawRange, RawShape};
+use crate::scene::supports::Standing;
+use crate::scene::supports::cross_section::{CrossSection, cross_section};
 use crate::scene::supports::depths::{Wish, settled};
-use crate::scene::supports::pillars::{Entry, entries, reach};
-use crate::scene::text::reader::{Reader, Span};
-use crate::scene::text::spanned::Field;
+use crate::scene::supports::pillars::{PillarEntry, entries, reach};
+use crate::scene::text::{Field, List, Reader, Span};
 use crate::support::Layer;
 use glam::DVec2;
 use std::collections::BTreeMap;
 
 /// Pillars that stay, as they will be written.
-pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<Entry> {
+pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<PillarEntry> {
     match reader.given(&raw.fixed) {
         Some((list, _)) => {
             let entries = entries(reader, list, depth);
@@ -27,39 +27,13 @@ pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<Entry> {
     }
 }
 
-/// The entry with its numbers rounded to what layout files hold.
-pub fn as_written(mut entry: Entry) -> Entry {
-    let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
-    let place = |v| rounded(v, defaults::PLACE_DECIMALS);
-    let section = entry.section.with_lengths(length);
-    if let Ok(outline) = section.outline() {
-        (entry.section, entry.outline) = (section, outline);
-    }
-    entry.height = place(entry.height).max(10f64.powi(-defaults::PLACE_DECIMALS));
-    for spot in &mut entry.spots {
-        spot.at = spot.at.to_array().map(place).into();
-    }
-    entry.layer = layer_as_written(entry.layer);
-    entry
-}
-
-/// A layer as layout files hold it.
-pub fn layer_as_written(layer: Layer) -> Layer {
-    let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
-    layer.resized(
-        length(layer.front),
-        length(layer.back()),
-        length(layer.core),
-    )
-}
-
 /// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its pillars may stand in `region` besides the `fixed`
 /// ones.
 pub fn brief(
     reader: &mut Reader,
     (raw, span): (&RawAuto, &Span),
     region: Vec<DVec2>,
-    fixed: &[Entry],
+    fixed: &[PillarEntry],
     depth: &Wish,
     around: &Around,
 ) -> (Brief, Vec<Span>) {
@@ -95,7 +69,7 @@ pub fn brief(
 }
 
 /// The brief of a list of pillars that are to be moved as little as can be, in `region`.
-pub fn mending(entries: &[Entry], region: Vec<DVec2>, around: &Around) -> Brief {
+pub fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Around) -> Brief {
     let standing: usize = entries.iter().map(|e| e.spots.len()).sum();
     let mut brief = Brief {
         region: Region::new(region),
@@ -120,7 +94,7 @@ pub fn mending(entries: &[Entry], region: Vec<DVec2>, around: &Around) -> Brief 
 }
 
 /// Adds the pillars of the entries to the given ones, and their shapes.
-fn give(brief: &mut Brief, entries: &[Entry], fixed: bool) {
+fn give(brief: &mut Brief, entries: &[PillarEntry], fixed: bool) {
     let mut known = BTreeMap::<String, usize>::new();
     for entry in entries {
         let (height, layer) = (entry.height, entry.layer);
@@ -142,7 +116,7 @@ fn give(brief: &mut Brief, entries: &[Entry], fixed: bool) {
     }
 }
 
-fn shape(section: &Section, outline: Vec<DVec2>, heights: [f64; 2], layer: Layer) -> Shape {
+fn shape(section: &CrossSection, outline: Vec<DVec2>, heights: [f64; 2], layer: Layer) -> Shape {
     Shape {
         reach: reach(&outline),
         profile: outline,
@@ -213,9 +187,9 @@ fn sections(
     reader: &mut Reader,
     field: &Field<List<RawShape>>,
     auto: &Span,
-) -> Vec<(Section, Span)> {
+) -> Vec<(CrossSection, Span)> {
     let Some((list, span)) = reader.given(field) else {
-        let round = Section::Round {
+        let round = CrossSection::Round {
             radius: defaults::PLANNED_RADIUS,
             facets: defaults::ROUND_FACETS,
         };
@@ -236,13 +210,13 @@ fn sections(
         let Some(raw) = reader.value(item) else {
             continue;
         };
-        sections.extend(section(reader, raw, &at).map(|s| (s, at)));
+        sections.extend(cross_section(reader, raw, &at).map(|s| (s, at)));
     }
     sections
 }
 
 /// A shape at `factor` of its size.
-fn sized(section: &Section, factor: f64) -> Section {
+fn sized(section: &CrossSection, factor: f64) -> CrossSection {
     section.with_lengths(|v| match factor {
         1.0 => rounded(v, defaults::LENGTH_DECIMALS),
         factor => rounded(factor * v, defaults::SIZE_DECIMALS),

@@ -3,18 +3,16 @@
 //! Takes the file's bytes; gives entries as if they stood in the scene. Problems name the file and the line. Places of entries are
 //! byte ranges that go on behind the scene's text, for the checks; [`Included::told`] finds them again.
 
+use super::around::Around;
 use crate::diag::{Diagnostic, Place};
 use crate::planner::Adjustment;
-use crate::scene::carriers::Around;
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawAdjust, RawLayout, RawPillars};
-use crate::scene::models::placing;
+use crate::scene::language::raw::{RawAdjust, RawLayout, RawPillars};
 use crate::scene::supports::depths::Wish;
-use crate::scene::supports::pillars::{Entry, some_entries};
+use crate::scene::supports::pillars::{PillarEntry, some_entries};
 use crate::scene::text::document::{self, Attempt, Document, in_file};
 use crate::scene::text::lexer;
-use crate::scene::text::reader::{Reader, Span, error_at, nearest, printable};
-use crate::scene::text::spanned::{Field, Spanned};
+use crate::scene::text::{Field, List, Reader, Span, Spanned, error_at, nearest, printable};
 
 /// A layout file.
 pub struct Included {
@@ -22,7 +20,7 @@ pub struct Included {
     text: String,
     /// Where the scene's text ends and this one goes on, bytes.
     shift: usize,
-    pub entries: Vec<Entry>,
+    pub entries: Vec<PillarEntry>,
     /// By name of the view.
     pub adjust: Vec<(String, Adjustment)>,
 }
@@ -85,7 +83,7 @@ impl Included {
     }
 }
 
-type Found = (Vec<Entry>, Vec<(String, Adjustment)>);
+type Found = (Vec<PillarEntry>, Vec<(String, Adjustment)>);
 
 fn attempt(text: &str, depth: &Wish, around: &Around) -> Attempt<Found> {
     let raw = match parse(text) {
@@ -94,10 +92,10 @@ fn attempt(text: &str, depth: &Wish, around: &Around) -> Attempt<Found> {
     };
     let mut reader = Reader::new(text, LAYOUT);
     if let Some((unit, _)) = reader.given(&raw.units) {
-        (reader.unit, reader.unit_name) = placing::unit(*unit);
+        (reader.unit, reader.unit_name) = unit.measure();
     }
-    let whole = lexer::trimmed(text);
-    let pillars = reader.required(&raw.pillars, "pillars", "the layout", &whole);
+    let all = lexer::trimmed(text);
+    let pillars = reader.required(&raw.pillars, "pillars", "the layout", &all);
     let entries = pillars.map(|(list, span)| some_entries(&mut reader, list, &span, depth));
     let adjust = match reader.given(&raw.adjust) {
         Some((list, _)) => adjustments(&mut reader, list, around),

@@ -2,22 +2,21 @@
 //!
 //! Both come from the same rounded numbers, so that the file reads back as the very pillars of the scene.
 
-use super::auto::layer_as_written;
+use super::written::{layer_as_written, rounded};
 use crate::diag::escaped;
 use crate::planner::{Adjustment, Pillar, Planned, Shape};
-use crate::scene::checks::Slab;
 use crate::scene::defaults;
 use crate::scene::models::placing;
 use crate::scene::resolved::Scene;
-use crate::scene::supports::cross_section::{point, rounded};
-use crate::scene::supports::pillars::{Row, Supports, UNNAMED};
-use crate::scene::supports::places::Spot;
+use crate::scene::supports::cross_section::point;
+use crate::scene::supports::pillars::{Batch, Colonnade, UNNAMED};
+use crate::scene::supports::{BasePlate, Spot};
 use crate::support::{Datum, Support, SupportKind};
 use glam::DVec2;
 use std::fmt::Write;
 
-/// Pillars of one name, shape and height.
-struct Group<'a> {
+/// An entry of a layout file: pillars of one name, shape and height.
+struct LayoutEntry<'a> {
     name: &'a str,
     shape: &'a Shape,
     height: f64,
@@ -28,19 +27,19 @@ struct Group<'a> {
 /// The scene with the pillars of a plan of its brief, and its models changed as the plan wants: complete, as if it included the
 /// layout file. Fixed pillars keep their names; those found are called after their views.
 pub fn laid_out(scene: &Scene, planned: &Planned) -> Scene {
-    let groups = groups(scene, planned);
-    let mut supports = Supports::of(groups.iter().map(|group| Row {
-        name: group.name,
-        outline: &group.shape.profile,
-        round: group.shape.round,
-        height: group.height,
-        layer: layer_as_written(group.shape.layer),
-        spots: &group.spots,
+    let entries = entries(scene, planned);
+    let mut supports = Colonnade::of(entries.iter().map(|entry| Batch {
+        name: entry.name,
+        outline: &entry.shape.profile,
+        round: entry.shape.round,
+        height: entry.height,
+        layer: layer_as_written(entry.shape.layer),
+        spots: &entry.spots,
     }));
-    supports.base = scene.supports.iter().find_map(slab);
+    supports.base = scene.supports.iter().find_map(base);
     let mut laid = scene.clone();
     for (view, adjustment) in laid.views.iter_mut().zip(&planned.adjustments) {
-        placing::adjust(&mut view.models, &tidy(adjustment, PLANNED_DECIMALS));
+        placing::adjust(&mut view.models, &rounded_to(adjustment, PLANNED_DECIMALS));
     }
     Scene {
         supports: supports.solids(),
@@ -52,11 +51,11 @@ pub fn laid_out(scene: &Scene, planned: &Planned) -> Scene {
 
 /// The layout file of a plan of the scene's brief.
 pub fn layout_text(scene: &Scene, planned: &Planned) -> String {
-    let groups = groups(scene, planned);
+    let entries = entries(scene, planned);
     let mut out = head(scene, planned);
     out.push_str("(\n    units: mm,\n    pillars: [\n");
-    for group in &groups {
-        out.push_str(&entry(group));
+    for entry in &entries {
+        out.push_str(&entry_text(entry));
     }
     out.push_str("    ],\n");
     let adjusted = adjustments(scene, planned);
@@ -99,27 +98,27 @@ fn head(scene: &Scene, planned: &Planned) -> String {
     )
 }
 
-fn entry(group: &Group) -> String {
-    let layer = layer_as_written(group.shape.layer);
+fn entry_text(entry: &LayoutEntry) -> String {
+    let layer = layer_as_written(entry.shape.layer);
     let from = match layer.datum() {
         Datum::Plane => "Axis",
         Datum::Surface => "Surface",
     };
     let place = |s: &Spot| point(&s.at);
-    let lines: Vec<String> = group
+    let lines: Vec<String> = entry
         .spots
         .chunks(5)
         .map(|row| row.iter().map(place).collect::<Vec<_>>().join(", "))
         .collect();
-    let name = match group.name {
+    let name = match entry.name {
         UNNAMED => String::new(),
         name => format!("            name: {name:?},\n"),
     };
-    let remark = if group.fixed { "  // fixed" } else { "" };
+    let remark = if entry.fixed { "  // fixed" } else { "" };
     format!(
         "        ({remark}\n{name}            shape: {},\n            height: {},\n            depth: (from: {from}, front: {}, back: {}, core: {}),\n            places: At([\n                {},\n            ]),\n        ),\n",
-        group.shape.written,
-        group.height,
+        entry.shape.written,
+        entry.height,
         layer.front,
         layer.back(),
         layer.core,
@@ -129,34 +128,34 @@ fn entry(group: &Group) -> String {
 
 /// A plan's pillars in the order in which files and scenes number them: fixed ones in their order, then those of every view, then
 /// those that nobody sees.
-fn groups<'a>(scene: &'a Scene, planned: &Planned) -> Vec<Group<'a>> {
+fn entries<'a>(scene: &'a Scene, planned: &Planned) -> Vec<LayoutEntry<'a>> {
     let Some(brief) = &scene.brief else {
         return Vec::new();
     };
     let given = scene.supports.iter().zip(&brief.given);
     let mut fixed_names = given.filter(|(_, g)| g.fixed).map(|(s, _)| stem(&s.name));
-    let mut fixed: Vec<Group> = Vec::new();
-    let mut found: Vec<(usize, Group)> = Vec::new();
+    let mut fixed: Vec<LayoutEntry> = Vec::new();
+    let mut found: Vec<(usize, LayoutEntry)> = Vec::new();
     for (pillar, height) in planned.pillars.iter().zip(&planned.heights) {
         let Some(shape) = brief.shapes.get(pillar.shape) else {
             continue;
         };
         let view = pillar.owner.and_then(|v| Some((v, scene.views.get(v)?)));
         if pillar.fixed {
-            let fresh = Group::new(
+            let fresh = LayoutEntry::new(
                 fixed_names.next().unwrap_or(UNNAMED),
                 shape,
                 pillar,
                 *height,
             );
-            // They only join the last group: their order gives their numbers.
+            // They only join the last entry: their order gives their numbers.
             match fixed.last_mut().filter(|g| g.is_like(&fresh)) {
                 Some(last) => last.spots.extend(fresh.spots),
                 None => fixed.push(fresh),
             }
         } else {
             let (order, name) = view.map_or((usize::MAX, UNNAMED), |(v, view)| (v, &view.name));
-            let fresh = Group::new(name, shape, pillar, *height);
+            let fresh = LayoutEntry::new(name, shape, pillar, *height);
             match found
                 .iter_mut()
                 .find(|(o, g)| *o == order && g.is_like(&fresh))
@@ -167,12 +166,12 @@ fn groups<'a>(scene: &'a Scene, planned: &Planned) -> Vec<Group<'a>> {
         }
     }
     found.sort_by_key(|(order, _)| *order);
-    fixed.extend(found.into_iter().map(|(_, group)| group));
+    fixed.extend(found.into_iter().map(|(_, entry)| entry));
     fixed
 }
 
-impl<'a> Group<'a> {
-    /// A group of one pillar, its numbers rounded.
+impl<'a> LayoutEntry<'a> {
+    /// An entry of one pillar, its numbers rounded.
     fn new(name: &'a str, shape: &'a Shape, pillar: &Pillar, height: f64) -> Self {
         let place = |v| rounded(v, defaults::PLACE_DECIMALS);
         let at = pillar.at.to_array().map(place).into();
@@ -197,11 +196,11 @@ fn stem(name: &str) -> &str {
     name.rsplit_once('-').map_or(UNNAMED, |(stem, _)| stem)
 }
 
-fn slab(support: &Support) -> Option<Slab> {
+fn base(support: &Support) -> Option<BasePlate> {
     match &support.kind {
         SupportKind::Base {
             outline, bottom, ..
-        } => Some(Slab {
+        } => Some(BasePlate {
             outline: outline.clone(),
             thickness: -bottom,
             span: None,
@@ -216,7 +215,7 @@ const PLANNED_DECIMALS: [i32; 3] = [3, 5, 3];
 /// Those of one that a file gave: as many as survive the way to radians and back.
 const KEPT_DECIMALS: [i32; 3] = [defaults::LENGTH_DECIMALS; 3];
 
-fn tidy(a: &Adjustment, [turn, scale, shift]: [i32; 3]) -> Adjustment {
+fn rounded_to(a: &Adjustment, [turn, scale, shift]: [i32; 3]) -> Adjustment {
     Adjustment {
         turn: rounded(a.turn.to_degrees(), turn).to_radians(),
         scale: rounded(a.scale, scale),
@@ -230,9 +229,9 @@ fn adjustments(scene: &Scene, planned: &Planned) -> Vec<Adjustment> {
     let both = scene.adjusted.iter().zip(&planned.adjustments);
     let one = |(kept, planned): (&Adjustment, &Adjustment)| {
         if *planned == Adjustment::NONE {
-            tidy(kept, KEPT_DECIMALS)
+            rounded_to(kept, KEPT_DECIMALS)
         } else {
-            tidy(planned, PLANNED_DECIMALS)
+            rounded_to(planned, PLANNED_DECIMALS)
         }
     };
     both.map(one).collect()

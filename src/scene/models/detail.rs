@@ -2,8 +2,7 @@
 
 use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs, simplified};
 use crate::scene::defaults;
-use crate::scene::text::reader::Reader;
-use crate::scene::text::spanned::Field;
+use crate::scene::text::{Field, Reader};
 use crate::view::Marks;
 use glam::DVec2;
 

@@ -6,9 +6,10 @@
 use crate::diag::Diagnostic;
 use crate::formats;
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawModelRegion, RawVolume};
-use crate::scene::text::reader::{Reader, Span, error_at, nearest, printable, short, warning_at};
-use crate::scene::text::spanned::Field;
+use crate::scene::language::raw::{RawModelRegion, RawVolume};
+use crate::scene::text::{
+    Field, List, Reader, Span, error_at, nearest, printable, short, warning_at,
+};
 use crate::view::Marks;
 use glam::DVec3;
 
@@ -22,7 +23,7 @@ enum Volume {
 
 /// A region as the scene describes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Region {
+pub struct MarkedRegion {
     volume: Volume,
     weight: f64,
     free: bool,
@@ -34,7 +35,7 @@ pub struct Region {
 const INSIDE: f64 = 0.5;
 
 /// What a scene says of a model's regions; those that are wrong are noted and left out.
-pub fn regions(reader: &mut Reader, field: &Field<List<RawModelRegion>>) -> Vec<Region> {
+pub fn regions(reader: &mut Reader, field: &Field<List<RawModelRegion>>) -> Vec<MarkedRegion> {
     let Some((list, span)) = reader.given(field) else {
         return Vec::new();
     };
@@ -55,7 +56,7 @@ pub fn regions(reader: &mut Reader, field: &Field<List<RawModelRegion>>) -> Vec<
     regions
 }
 
-fn region(reader: &mut Reader, raw: &RawModelRegion, span: &Span) -> Option<Region> {
+fn region(reader: &mut Reader, raw: &RawModelRegion, span: &Span) -> Option<MarkedRegion> {
     let shape = reader.required(&raw.shape, "shape", "this region", span);
     let weight = reader.within(&raw.weight, "weight", defaults::VERTEX_WEIGHTS);
     let free = reader.given(&raw.free).is_some_and(|(free, _)| *free);
@@ -66,7 +67,7 @@ fn region(reader: &mut Reader, raw: &RawModelRegion, span: &Span) -> Option<Regi
         let message = "this region changes nothing: it has neither a weight nor `free: true`";
         reader.problems.push(warning_at(span, message));
     }
-    Some(Region {
+    Some(MarkedRegion {
         volume,
         weight: weight.map_or(1.0, |(w, _)| w),
         free,
@@ -120,7 +121,7 @@ fn place(
 /// What all regions together say of a model's vertices; `name` and `file` are for messages.
 pub fn marks(
     reader: &mut Reader,
-    regions: &[Region],
+    regions: &[MarkedRegion],
     model: &formats::Model,
     name: &str,
     file: &str,
@@ -165,7 +166,7 @@ pub fn marks(
     marks
 }
 
-impl Region {
+impl MarkedRegion {
     /// How far every vertex belongs to the region: 0 or 1, or as painted.
     ///
     /// # Errors

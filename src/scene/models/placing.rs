@@ -4,9 +4,8 @@ use crate::diag::Diagnostic;
 use crate::mesh::TriMesh;
 use crate::planner::Adjustment;
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawFit, RawPlace, RawUnit};
-use crate::scene::text::reader::{Reader, Span, error_at, short};
-use crate::scene::text::spanned::Field;
+use crate::scene::language::raw::{RawFit, RawPlace};
+use crate::scene::text::{Field, List, Reader, Span, error_at, short, warning_at};
 use crate::view::PlacedModel;
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
@@ -42,16 +41,6 @@ pub struct Fit {
 pub enum Placing {
     Matrix(DMat4),
     Fit(Fit),
-}
-
-/// Millimetres per unit, and its name.
-pub fn unit(unit: RawUnit) -> (f64, &'static str) {
-    match unit {
-        RawUnit::mm => (1.0, "mm"),
-        RawUnit::cm => (10.0, "cm"),
-        RawUnit::m => (1000.0, "m"),
-        RawUnit::inch => (25.4, "inch"),
-    }
 }
 
 impl Placing {
@@ -176,9 +165,9 @@ fn fit(reader: &mut Reader, raw: &RawFit) -> Option<Fit> {
 }
 
 fn size(reader: &mut Reader, raw: &RawFit) -> Size {
-    let height = crate::scene::supports::places::positive_at(reader, &raw.height, "height");
-    let width = crate::scene::supports::places::positive_at(reader, &raw.width, "width");
-    let largest = crate::scene::supports::places::positive_at(reader, &raw.largest, "largest");
+    let height = reader.positive_at(&raw.height, "height");
+    let width = reader.positive_at(&raw.width, "width");
+    let largest = reader.positive_at(&raw.largest, "largest");
     let sizes = [
         height.map(|(v, s)| (Size::Height(v), s)),
         width.map(|(v, s)| (Size::Width(v), s)),
@@ -264,7 +253,7 @@ fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMa
         return None;
     }
     if determinant < 0.0 {
-        reader.problems.push(crate::scene::text::reader::warning_at(
+        reader.problems.push(warning_at(
             span,
             "the matrix mirrors the model: its determinant is negative",
         ));
@@ -299,7 +288,7 @@ pub fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnos
             "model \"{name}\" is {} mm large in the scene{text}",
             short(largest)
         );
-        crate::scene::text::reader::warning_at(span, message).help(help)
+        warning_at(span, message).help(help)
     };
     if largest < 2.0 {
         return Some(say(

@@ -4,8 +4,7 @@ use crate::kinds::Bounded;
 use crate::mesh::{Edges, HalfEdge, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawBounded, RawEnergy, RawRelief, RawScene, RawSteps};
-use crate::scene::text::reader::{Reader, Span, error_at, short};
-use crate::scene::text::spanned::Field;
+use crate::scene::text::{Field, Reader, Span, error_at, short};
 use crate::support::{SUNK_MM, Support};
 
 /// What of whole meshes is held; `None`: reliefs are height fields.

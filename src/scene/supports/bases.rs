@@ -1,12 +1,10 @@
 //! The base: given, or fitted around what it is to hold.
 
-use super::places::{positive, positive_at};
 use super::shapes;
-use crate::scene::checks::Slab;
+use super::standing::BasePlate;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawBase, RawDisc, RawSlab};
-use crate::scene::text::reader::{Reader, Span, warning_at};
-use crate::scene::text::spanned::Field;
+use crate::scene::text::{Field, Reader, Span, warning_at};
 use glam::DVec2;
 
 /// The base, by default a disc that reaches beyond everything it is to hold: corners of outlines. `loose` are what falls apart without
@@ -16,7 +14,7 @@ pub fn base(
     field: &Field<RawBase>,
     held: &[DVec2],
     loose: Option<String>,
-) -> Option<Slab> {
+) -> Option<BasePlate> {
     match reader.given(field) {
         None => disc(reader, &RawDisc::default(), None, held),
         Some((RawBase::Disc(raw), span)) => disc(reader, raw, Some(span), held),
@@ -43,14 +41,19 @@ pub fn has_size(field: &Field<RawBase>) -> bool {
     }
 }
 
-fn disc(reader: &mut Reader, raw: &RawDisc, span: Option<Span>, held: &[DVec2]) -> Option<Slab> {
+fn disc(
+    reader: &mut Reader,
+    raw: &RawDisc,
+    span: Option<Span>,
+    held: &[DVec2],
+) -> Option<BasePlate> {
     let thickness = thickness(reader, &raw.thickness);
     let margin = margin(reader, &raw.margin);
     let centre = reader
         .point_field(&raw.centre, "centre")
         .map(|(p, _)| DVec2::from(p));
     let centre = centre
-        .or_else(|| bounds(held).map(|(lo, hi)| (lo + hi) / 2.0))
+        .or_else(|| shapes::bounds(held).map(|(lo, hi)| (lo + hi) / 2.0))
         .unwrap_or(DVec2::ZERO);
     let facets = match &raw.facets {
         Field::Missing => defaults::BASE_FACETS,
@@ -62,30 +65,30 @@ fn disc(reader: &mut Reader, raw: &RawDisc, span: Option<Span>, held: &[DVec2]) 
             // The polygon's sides run inside its circle.
             (reach + margin?) / (std::f64::consts::PI / f64::from(facets)).cos()
         }
-        field => positive(reader, field, "radius")?,
+        field => reader.positive(field, "radius")?,
     };
     let outline = shapes::regular(facets, radius, 0.0)
         .into_iter()
         .map(|p| p + centre)
         .collect();
-    Some(Slab {
+    Some(BasePlate {
         outline,
         thickness: thickness?,
         span,
     })
 }
 
-fn rectangle(reader: &mut Reader, raw: &RawSlab, span: Span, held: &[DVec2]) -> Option<Slab> {
+fn rectangle(reader: &mut Reader, raw: &RawSlab, span: Span, held: &[DVec2]) -> Option<BasePlate> {
     let thickness = thickness(reader, &raw.thickness);
     let margin = margin(reader, &raw.margin);
-    let (lo, hi) = bounds(held).unwrap_or((DVec2::ZERO, DVec2::ZERO));
+    let (lo, hi) = shapes::bounds(held).unwrap_or((DVec2::ZERO, DVec2::ZERO));
     let centre = reader
         .point_field(&raw.centre, "centre")
         .map_or((lo + hi) / 2.0, |(p, _)| p.into());
     let reach = (hi - centre).max(centre - lo);
     let mut side = |field: &Field<f64>, name: &str, half: f64| match field {
         Field::Missing => margin.map(|m| 2.0 * (half + m)),
-        field => positive_at(reader, field, name).map(|(v, _)| v),
+        field => reader.positive_at(field, name).map(|(v, _)| v),
     };
     let (width, depth) = (
         side(&raw.width, "width", reach.x),
@@ -95,7 +98,7 @@ fn rectangle(reader: &mut Reader, raw: &RawSlab, span: Span, held: &[DVec2]) -> 
         .into_iter()
         .map(|p| p + centre)
         .collect();
-    Some(Slab {
+    Some(BasePlate {
         outline,
         thickness: thickness?,
         span: Some(span),
@@ -114,14 +117,4 @@ fn margin(reader: &mut Reader, field: &Field<f64>) -> Option<f64> {
         Field::Missing => Some(defaults::BASE_MARGIN),
         field => reader.length_from(field, "margin", 0.0).map(|(v, _)| v),
     }
-}
-
-/// Lowest and highest corner of a box around the points.
-pub fn bounds(points: &[DVec2]) -> Option<(DVec2, DVec2)> {
-    let first = *points.first()?;
-    Some(
-        points
-            .iter()
-            .fold((first, first), |(l, h), p| (l.min(*p), h.max(*p))),
-    )
 }

@@ -3,19 +3,16 @@
 use super::depths::{Wish, layer, settled_on_body};
 use super::forms;
 use super::heights;
-use super::places::positive;
 use crate::geom::hull;
 use crate::mesh::{Edges, Solid, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::{
-    List, RawBody, RawDepth, RawGroove, RawHeights, RawPlate, RawStairs, RawStrips, RawSupport,
-    RawWave,
+    RawBody, RawDepth, RawGroove, RawHeights, RawPlate, RawStairs, RawStrips, RawSupport, RawWave,
 };
 use crate::scene::models::placing;
-use crate::scene::resolve::ReadFile;
+use crate::scene::request::ReadFile;
 use crate::scene::text::names;
-use crate::scene::text::reader::{Reader, Span, error_at, placed, short};
-use crate::scene::text::spanned::Field;
+use crate::scene::text::{Field, List, Reader, Span, error_at, placed, short};
 use crate::support::{Face, Support, SupportKind};
 use glam::{DMat4, DVec2, DVec3};
 
@@ -74,7 +71,7 @@ struct Maker<'a> {
 }
 
 /// A mesh in a frame of its own, and what is said of it.
-struct Form<'a> {
+struct FramedMesh<'a> {
     name: String,
     mesh: TriMesh,
     frame: DMat4,
@@ -85,9 +82,9 @@ struct Form<'a> {
     depth: &'a Field<RawDepth>,
 }
 
-impl<'a> Form<'a> {
+impl<'a> FramedMesh<'a> {
     /// Neither flat nor in parts.
-    fn whole(name: String, mesh: TriMesh, frame: DMat4, depth: &'a Field<RawDepth>) -> Self {
+    fn plain(name: String, mesh: TriMesh, frame: DMat4, depth: &'a Field<RawDepth>) -> Self {
         Self {
             name,
             mesh,
@@ -117,11 +114,11 @@ impl Maker<'_> {
             .into_iter()
             .filter_map(|form| self.support(reader, form))
             .collect();
-        let whole = reader.problems[before..].iter().all(|p| !p.is_error());
-        if whole { supports } else { Vec::new() }
+        let sound = reader.problems[before..].iter().all(|p| !p.is_error());
+        if sound { supports } else { Vec::new() }
     }
 
-    fn support(&self, reader: &mut Reader, form: Form) -> Option<Support> {
+    fn support(&self, reader: &mut Reader, form: FramedMesh) -> Option<Support> {
         let wish = match reader.given(form.depth) {
             Some((own, at)) => layer(reader, own, &at, self.depth),
             None => self.depth.clone(),
@@ -153,7 +150,7 @@ impl Maker<'_> {
         })
     }
 
-    fn plate<'r>(&self, reader: &mut Reader, raw: &'r RawPlate) -> Option<Form<'r>> {
+    fn plate<'r>(&self, reader: &mut Reader, raw: &'r RawPlate) -> Option<FramedMesh<'r>> {
         let name = self.name(reader, &raw.name, "plate");
         let [width, height] =
             self.sizes(reader, [(&raw.width, "width"), (&raw.height, "height")])?;
@@ -163,9 +160,9 @@ impl Maker<'_> {
             "thickness",
             defaults::BODY_THICKNESS,
         )?;
-        Some(Form {
+        Some(FramedMesh {
             flat: true,
-            ..Form::whole(
+            ..FramedMesh::plain(
                 name?,
                 forms::plate(width, height, thickness),
                 frame(reader, &raw.at, &raw.facing, &raw.lean)?,
@@ -175,7 +172,7 @@ impl Maker<'_> {
     }
 
     /// Plates side by side, from left to right as they are looked at, each turned against its neighbour about their common edge.
-    fn strips<'r>(&self, reader: &mut Reader, raw: &'r RawStrips) -> Option<Vec<Form<'r>>> {
+    fn strips<'r>(&self, reader: &mut Reader, raw: &'r RawStrips) -> Option<Vec<FramedMesh<'r>>> {
         let name = self.name(reader, &raw.name, "strip")?;
         reader.need(&raw.count, "count", "this row of strips", self.span);
         let (count, _) = reader.count(&raw.count, "count", 1..=100)?;
@@ -191,8 +188,8 @@ impl Maker<'_> {
             Field::Missing => defaults::STRIP_GAP,
             field => reader.length_from(field, "gap", 0.0)?.0,
         };
-        let turn = super::places::turn(reader, &raw.turn);
-        let whole = frame(reader, &raw.at, &raw.facing, &Field::Missing)?;
+        let turn = reader.turn(&raw.turn);
+        let row = frame(reader, &raw.at, &raw.facing, &Field::Missing)?;
         // The middle of the row stays at `at`, and the middle strip looks along `facing`.
         let angle = |k: u32| turn * (f64::from(k) - f64::from(count - 1) / 2.0);
         let way = |k: u32| DVec2::from_angle(-angle(k));
@@ -206,12 +203,12 @@ impl Maker<'_> {
             // In the frame x is to the right and z towards the viewer.
             let turned = DMat4::from_rotation_y(angle(k));
             let moved = DMat4::from_translation(DVec3::new(at.x, 0.0, at.y));
-            Form {
+            FramedMesh {
                 flat: true,
-                ..Form::whole(
+                ..FramedMesh::plain(
                     name.clone(),
                     forms::plate(width, height, thickness),
-                    whole * moved * turned,
+                    row * moved * turned,
                     &raw.depth,
                 )
             }
@@ -219,7 +216,7 @@ impl Maker<'_> {
         Some((0..count).map(strip).collect())
     }
 
-    fn stairs<'r>(&self, reader: &mut Reader, raw: &'r RawStairs) -> Option<Form<'r>> {
+    fn stairs<'r>(&self, reader: &mut Reader, raw: &'r RawStairs) -> Option<FramedMesh<'r>> {
         let name = self.name(reader, &raw.name, "stairs");
         reader.need(&raw.steps, "steps", "this staircase", self.span);
         let steps = reader.count(&raw.steps, "steps", 1..=200);
@@ -227,9 +224,9 @@ impl Maker<'_> {
         let [rise, going] = defaults::STEP;
         let rise = self.or(reader, &raw.rise, "rise", rise)?;
         let going = self.or(reader, &raw.going, "going", going)?;
-        Some(Form {
+        Some(FramedMesh {
             crease: Some(FLAT),
-            ..Form::whole(
+            ..FramedMesh::plain(
                 name?,
                 forms::stairs(steps?.0, width, rise, going),
                 frame(reader, &raw.at, &raw.facing, &Field::Missing)?,
@@ -238,7 +235,7 @@ impl Maker<'_> {
         })
     }
 
-    fn groove<'r>(&self, reader: &mut Reader, raw: &'r RawGroove) -> Option<Form<'r>> {
+    fn groove<'r>(&self, reader: &mut Reader, raw: &'r RawGroove) -> Option<FramedMesh<'r>> {
         let name = self.name(reader, &raw.name, "groove");
         let sizes = [
             (&raw.width, "width"),
@@ -263,7 +260,7 @@ impl Maker<'_> {
             );
             return None;
         }
-        Some(Form::whole(
+        Some(FramedMesh::plain(
             name?,
             forms::groove(width, height, thickness, opening, deep),
             frame(reader, &raw.at, &raw.facing, &raw.lean)?,
@@ -271,7 +268,7 @@ impl Maker<'_> {
         ))
     }
 
-    fn wave<'r>(&self, reader: &mut Reader, raw: &'r RawWave) -> Option<Form<'r>> {
+    fn wave<'r>(&self, reader: &mut Reader, raw: &'r RawWave) -> Option<FramedMesh<'r>> {
         let name = self.name(reader, &raw.name, "wave");
         let [width, height] =
             self.sizes(reader, [(&raw.width, "width"), (&raw.height, "height")])?;
@@ -323,7 +320,7 @@ impl Maker<'_> {
                 .push(error_at(&at, text).help("a larger `thickness`, or other heights"));
             return None;
         }
-        Some(Form::whole(
+        Some(FramedMesh::plain(
             name?,
             mesh,
             frame(reader, &raw.at, &raw.facing, &raw.lean)?,
@@ -331,12 +328,10 @@ impl Maker<'_> {
         ))
     }
 
-    fn mesh<'r>(&self, reader: &mut Reader, raw: &'r RawBody) -> Option<Form<'r>> {
+    fn mesh<'r>(&self, reader: &mut Reader, raw: &'r RawBody) -> Option<FramedMesh<'r>> {
         let name = self.name(reader, &raw.name, "mesh");
         let (file, file_span) = reader.required(&raw.file, "file", "this Mesh", self.span)?;
-        let unit = reader
-            .given(&raw.units)
-            .map_or(1.0, |(u, _)| placing::unit(*u).0);
+        let unit = reader.given(&raw.units).map_or(1.0, |(u, _)| u.measure().0);
         let (placing, _) = placing::placing(reader, &raw.place)?;
         let crease = match &raw.creases {
             Field::Missing => None,
@@ -354,9 +349,9 @@ impl Maker<'_> {
         let placing = placing.or_facing(defaults::FACING.into());
         let matrix = placing.matrix(&loaded.value, unit, DVec3::ZERO);
         let mesh = loaded.value.transformed(matrix);
-        Some(Form {
+        Some(FramedMesh {
             crease,
-            ..Form::whole(
+            ..FramedMesh::plain(
                 name?,
                 self.solid(reader, mesh, &raw.thickness, &file_span)?,
                 DMat4::IDENTITY,
@@ -391,7 +386,7 @@ impl Maker<'_> {
                 None
             }
             (_, field) => {
-                let thickness = positive(reader, field, "thickness")?;
+                let thickness = reader.positive(field, "thickness")?;
                 let mean: DVec3 = (0..mesh.faces.len()).map(|f| mesh.area_vector(f)).sum();
                 let Some(ahead) = mean.try_normalize() else {
                     reader.error(span, "the mesh looks to all sides alike: it has no behind");
@@ -418,7 +413,7 @@ impl Maker<'_> {
         for (field, name) in &fields {
             reader.need(field, name, "this support", self.span);
         }
-        let found = fields.map(|(field, name)| positive(reader, field, name));
+        let found = fields.map(|(field, name)| reader.positive(field, name));
         let all: Option<Vec<f64>> = found.into_iter().collect();
         all?.try_into().ok()
     }
@@ -427,7 +422,7 @@ impl Maker<'_> {
     fn or(&self, reader: &mut Reader, field: &Field<f64>, name: &str, usual: f64) -> Option<f64> {
         match field {
             Field::Missing => Some(usual),
-            field => positive(reader, field, name),
+            field => reader.positive(field, name),
         }
     }
 }

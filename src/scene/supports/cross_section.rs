@@ -1,19 +1,17 @@
 //! Cross-sections of pillars, in numbers.
 //!
-//! Takes what a scene says, gives millimetres and degrees from which the outline follows. [`Section::written`] is RON text that
+//! Takes what a scene says, gives millimetres and degrees from which the outline follows. [`CrossSection::written`] is RON text that
 //! reads back as the same section, bit for bit.
 
-use super::places::positive;
 use super::shapes;
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawShape};
-use crate::scene::text::reader::{Reader, Span};
-use crate::scene::text::spanned::Field;
+use crate::scene::language::raw::RawShape;
+use crate::scene::text::{Field, List, Reader, Span};
 use glam::DVec2;
 
 /// A cross-section around the axis of its pillar; lengths in millimetres, turns in degrees.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Section {
+pub enum CrossSection {
     Round { radius: f64, facets: u32 },
     Polygon { sides: u32, radius: f64, turn: f64 },
     Rectangle { width: f64, depth: f64, turn: f64 },
@@ -21,18 +19,18 @@ pub enum Section {
 }
 
 /// What the scene says of a section.
-pub fn section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<Section> {
+pub fn cross_section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<CrossSection> {
     match shape {
         RawShape::Round(raw) => {
             reader.need(&raw.radius, "radius", "this Round", span);
-            let radius = positive(reader, &raw.radius, "radius");
+            let radius = reader.positive(&raw.radius, "radius");
             let facets = match &raw.facets {
                 Field::Missing => Some(defaults::ROUND_FACETS),
                 field => reader
                     .count(field, "facets", defaults::FACETS)
                     .map(|(f, _)| f),
             };
-            Some(Section::Round {
+            Some(CrossSection::Round {
                 facets: facets?,
                 radius: radius?,
             })
@@ -41,9 +39,9 @@ pub fn section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<Sec
             reader.need(&raw.sides, "sides", "this Polygon", span);
             reader.need(&raw.radius, "radius", "this Polygon", span);
             let sides = reader.count(&raw.sides, "sides", 3..=512).map(|(s, _)| s);
-            let radius = positive(reader, &raw.radius, "radius");
+            let radius = reader.positive(&raw.radius, "radius");
             let turn = turn(reader, &raw.turn);
-            Some(Section::Polygon {
+            Some(CrossSection::Polygon {
                 sides: sides?,
                 radius: radius?,
                 turn,
@@ -52,10 +50,10 @@ pub fn section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<Sec
         RawShape::Rectangle(raw) => {
             reader.need(&raw.width, "width", "this Rectangle", span);
             reader.need(&raw.depth, "depth", "this Rectangle", span);
-            let width = positive(reader, &raw.width, "width");
-            let depth = positive(reader, &raw.depth, "depth");
+            let width = reader.positive(&raw.width, "width");
+            let depth = reader.positive(&raw.depth, "depth");
             let turn = turn(reader, &raw.turn);
-            Some(Section::Rectangle {
+            Some(CrossSection::Rectangle {
                 width: width?,
                 depth: depth?,
                 turn,
@@ -65,7 +63,7 @@ pub fn section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<Sec
             let turn = turn(reader, &raw.turn);
             let (list, list_span) = reader.required(&raw.points, "points", "this Profile", span)?;
             let points = points(reader, list, &list_span)?;
-            let section = Section::Profile { points, turn };
+            let section = CrossSection::Profile { points, turn };
             match section.outline() {
                 Ok(_) => Some(section),
                 Err(why) => {
@@ -106,7 +104,7 @@ pub fn points(reader: &mut Reader, list: &List<[f64; 2]>, span: &Span) -> Option
     (points.len() == list.len()).then_some(points)
 }
 
-impl Section {
+impl CrossSection {
     /// The outline around the origin, counter-clockwise, millimetres.
     ///
     /// # Errors
@@ -176,10 +174,4 @@ impl Section {
 /// `(1, -2.5)`.
 pub fn point(p: &DVec2) -> String {
     format!("({}, {})", p.x, p.y)
-}
-
-/// Rounded to `decimals` decimals; never -0.
-pub fn rounded(value: f64, decimals: i32) -> f64 {
-    let unit = 10f64.powi(decimals);
-    (value * unit).round() / unit + 0.0
 }

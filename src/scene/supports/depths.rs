@@ -3,7 +3,7 @@
 use super::shapes;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawDatum, RawDepth, RawOutline};
-use crate::scene::text::reader::{Reader, Span, error_at, short};
+use crate::scene::text::{Reader, Span, error_at, short};
 use crate::support::{Datum, Extent, Layer, SUNK_MM};
 use glam::DVec2;
 
@@ -168,9 +168,7 @@ pub fn settled(
         let help = "`hits` belong into the `depth` of supports that are no pillars";
         reader.problems.push(error_at(span, text).help(help));
     }
-    let datum = wish
-        .datum
-        .map_or(defaults::LAYER.datum(), |(datum, _)| datum);
+    let datum = wish.datum.map_or(defaults::LAYER.datum(), |(datum, _)| datum);
     let (room, of) = match (datum, round) {
         (Datum::Plane, true) => (reach, "the radius"),
         (Datum::Plane, false) => (width / 2.0, "half the width"),

@@ -2,8 +2,8 @@
 
 use crate::scene::defaults;
 use crate::scene::language::raw::RawImage;
-use crate::scene::resolve::ReadFile;
-use crate::scene::text::reader::{Reader, Span, error_at};
+use crate::scene::request::ReadFile;
+use crate::scene::text::{Reader, Span, error_at};
 use exmex::{Express, FlatEx};
 
 /// Height over the face, millimetres, at x to the right of its middle and y above its lower edge, millimetres.

@@ -1,21 +1,20 @@
 //! Pillars: from their entries to solids with layers.
 
-use super::cross_section::{Section, section};
+use super::cross_section::{CrossSection, cross_section};
 use super::depths::{Wish, layer, settled};
-use super::places::{self, Spot, positive};
+use super::places::{self, Spot};
 use super::shapes;
-use crate::scene::checks::{Slab, Standing};
+use super::standing::{BasePlate, Standing};
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawPillars};
-use crate::scene::text::reader::{Reader, Span, error_at};
-use crate::scene::text::spanned::Field;
+use crate::scene::language::raw::RawPillars;
+use crate::scene::text::{Field, List, Reader, Span, error_at};
 use crate::support::{Layer, Support, SupportKind};
 use glam::DVec2;
 
 /// One entry of the scene's pillars, ready to be put up.
-pub struct Entry {
+pub struct PillarEntry {
     pub name: String,
-    pub section: Section,
+    pub section: CrossSection,
     /// Around the origin, counter-clockwise.
     pub outline: Vec<DVec2>,
     pub height: f64,
@@ -24,7 +23,7 @@ pub struct Entry {
 }
 
 /// Pillars of one kind on their places.
-pub struct Row<'a> {
+pub struct Batch<'a> {
     pub name: &'a str,
     /// Around the origin, counter-clockwise.
     pub outline: &'a [DVec2],
@@ -34,9 +33,9 @@ pub struct Row<'a> {
     pub spots: &'a [Spot],
 }
 
-impl Entry {
-    pub fn row(&self) -> Row<'_> {
-        Row {
+impl PillarEntry {
+    pub fn batch(&self) -> Batch<'_> {
+        Batch {
             name: &self.name,
             outline: &self.outline,
             round: self.section.is_round(),
@@ -47,33 +46,33 @@ impl Entry {
     }
 }
 
-/// Pillars and base for the checks and, with the layers, the solids.
+/// Pillars in place and the base under them: for the checks and, with the layers, the solids.
 #[derive(Default)]
-pub struct Supports {
+pub struct Colonnade {
     pub pillars: Vec<Standing>,
-    pub base: Option<Slab>,
+    pub base: Option<BasePlate>,
     layers: Vec<Layer>,
 }
 
-impl Supports {
-    /// Puts pillars up and numbers them: `p1`, `p2`, ... or the row's own name with a number.
-    pub fn of<'a>(rows: impl IntoIterator<Item = Row<'a>>) -> Self {
+impl Colonnade {
+    /// Puts pillars up and numbers them: `p1`, `p2`, ... or the batch's own name with a number.
+    pub fn of<'a>(batches: impl IntoIterator<Item = Batch<'a>>) -> Self {
         let mut found = Self::default();
         let mut counters = std::collections::BTreeMap::<&str, usize>::new();
-        for row in rows {
-            let reach = reach(row.outline);
-            for spot in row.spots {
-                let number = counters.entry(row.name).or_default();
+        for batch in batches {
+            let reach = reach(batch.outline);
+            for spot in batch.spots {
+                let number = counters.entry(batch.name).or_default();
                 *number += 1;
-                let dash = if row.name == UNNAMED { "" } else { "-" };
-                found.layers.push(row.layer);
+                let dash = if batch.name == UNNAMED { "" } else { "-" };
+                found.layers.push(batch.layer);
                 found.pillars.push(Standing {
-                    name: format!("{}{dash}{number}", row.name),
+                    name: format!("{}{dash}{number}", batch.name),
                     axis: spot.at,
-                    profile: row.outline.iter().map(|p| spot.at + *p).collect(),
-                    height: row.height,
+                    profile: batch.outline.iter().map(|p| spot.at + *p).collect(),
+                    height: batch.height,
                     reach,
-                    round: row.round,
+                    round: batch.round,
                     span: spot.span.clone(),
                 });
             }
@@ -107,12 +106,12 @@ impl Supports {
                 name: pillar.name,
                 layer: Some(layer),
             });
-        let base = self.base.into_iter().map(|slab| Support {
+        let base = self.base.into_iter().map(|base| Support {
             name: "base".to_string(),
-            mesh: shapes::prism(&slab.outline, -slab.thickness, 0.0),
+            mesh: shapes::prism(&base.outline, -base.thickness, 0.0),
             kind: SupportKind::Base {
-                outline: slab.outline,
-                bottom: -slab.thickness,
+                outline: base.outline,
+                bottom: -base.thickness,
                 top: 0.0,
             },
             layer: None,
@@ -135,7 +134,7 @@ fn sunk(thickness: f64) -> f64 {
 }
 
 /// The entries that can be read; `depth` is what holds where they say nothing.
-pub fn entries(reader: &mut Reader, list: &List<RawPillars>, depth: &Wish) -> Vec<Entry> {
+pub fn entries(reader: &mut Reader, list: &List<RawPillars>, depth: &Wish) -> Vec<PillarEntry> {
     let mut entries = Vec::new();
     let (mut total, mut corners, mut pairs) = (0u64, 0u64, 0u64);
     for item in list {
@@ -180,14 +179,14 @@ pub fn some_entries(
     list: &List<RawPillars>,
     span: &Span,
     depth: &Wish,
-) -> Vec<Entry> {
+) -> Vec<PillarEntry> {
     if list.is_empty() {
         reader.error(span, "a forest needs at least one pillar");
     }
     entries(reader, list, depth)
 }
 
-fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Option<Entry> {
+fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Option<PillarEntry> {
     let owner = "this entry of `pillars`";
     let name = match reader.given(&raw.name) {
         Some((name, name_span)) => {
@@ -197,10 +196,10 @@ fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Op
     };
     let section = reader
         .required(&raw.shape, "shape", owner, span)
-        .and_then(|(s, at)| section(reader, s, &at));
+        .and_then(|(s, at)| cross_section(reader, s, &at));
     let height = match &raw.height {
         Field::Missing => Some(defaults::PILLAR_HEIGHT),
-        field => positive(reader, field, "height"),
+        field => reader.positive(field, "height"),
     };
     let spots = reader
         .required(&raw.places, "places", owner, span)
@@ -212,7 +211,7 @@ fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Op
     let (name, section, height, spots) = (name?, section?, height?, spots?);
     let outline = section.outline().ok()?;
     let layer = settled(reader, &outline, section.is_round(), &wish, span);
-    Some(Entry {
+    Some(PillarEntry {
         name,
         section,
         outline,

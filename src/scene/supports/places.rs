@@ -1,9 +1,8 @@
 //! Where the pillars of one entry stand: lists, grids, rings and honeycombs.
 
 use crate::scene::defaults;
-use crate::scene::language::raw::{List, RawGrid, RawHex, RawPlaces, RawRing};
-use crate::scene::text::reader::{Reader, Span};
-use crate::scene::text::spanned::Field;
+use crate::scene::language::raw::{RawGrid, RawHex, RawPlaces, RawRing};
+use crate::scene::text::{Field, List, Reader, Span};
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -72,14 +71,14 @@ fn lattice(reader: &mut Reader, grid: &RawGrid, span: &Span) -> Option<Vec<DVec2
     reader.need(&grid.pitch, "pitch", owner, span);
     let columns = count(reader, &grid.columns, "columns");
     let rows = count(reader, &grid.rows, "rows");
-    let pitch = positive(reader, &grid.pitch, "pitch");
+    let pitch = reader.positive(&grid.pitch, "pitch");
     let pitch_y = if is_given(&grid.pitch_y) {
-        positive(reader, &grid.pitch_y, "pitch_y")
+        reader.positive(&grid.pitch_y, "pitch_y")
     } else {
         pitch
     };
     let centre = centre(reader, &grid.centre);
-    let turn = turn(reader, &grid.turn);
+    let turn = reader.turn(&grid.turn);
     let (columns, rows, pitch, pitch_y) = (columns?, rows?, pitch?, pitch_y?);
     affordable(
         reader,
@@ -102,9 +101,9 @@ fn circle(reader: &mut Reader, ring: &RawRing, span: &Span) -> Option<Vec<DVec2>
     reader.need(&ring.count, "count", "this Ring", span);
     reader.need(&ring.radius, "radius", "this Ring", span);
     let count = count(reader, &ring.count, "count");
-    let radius = positive(reader, &ring.radius, "radius");
+    let radius = reader.positive(&ring.radius, "radius");
     let centre = centre(reader, &ring.centre);
-    let turn = turn(reader, &ring.turn);
+    let turn = reader.turn(&ring.turn);
     let (count, radius) = (count?, radius?);
     affordable(reader, u64::from(count), span)?;
     let angle = |i: u32| turn + TAU * f64::from(i) / f64::from(count);
@@ -120,9 +119,9 @@ fn honeycomb(reader: &mut Reader, hex: &RawHex, span: &Span) -> Option<Vec<DVec2
     reader.need(&hex.rings, "rings", "this Hex", span);
     reader.need(&hex.pitch, "pitch", "this Hex", span);
     let rings = reader.given(&hex.rings).map(|(r, _)| *r);
-    let pitch = positive(reader, &hex.pitch, "pitch");
+    let pitch = reader.positive(&hex.pitch, "pitch");
     let centre = centre(reader, &hex.centre);
-    let turn = turn(reader, &hex.turn);
+    let turn = reader.turn(&hex.turn);
     let (rings, pitch) = (rings?, pitch?);
     let count = u64::from(rings)
         .saturating_mul(u64::from(rings) + 1)
@@ -144,35 +143,10 @@ fn is_given<T>(field: &Field<T>) -> bool {
     matches!(field, Field::Given(_))
 }
 
-/// A length above zero.
-pub fn positive(reader: &mut Reader, field: &Field<f64>, name: &str) -> Option<f64> {
-    positive_at(reader, field, name).map(|(value, _)| value)
-}
-
-/// A length above zero and its place.
-pub fn positive_at(reader: &mut Reader, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
-    let (value, span) = reader.length(field, name)?;
-    if value > 0.0 {
-        return Some((value, span));
-    }
-    reader.error(
-        &span,
-        format!("`{name}` is {value} mm; it must be more than 0"),
-    );
-    None
-}
-
 fn centre(reader: &mut Reader, field: &Field<[f64; 2]>) -> DVec2 {
     reader
         .point_field(field, "centre")
         .map_or(DVec2::ZERO, |(p, _)| p.into())
-}
-
-/// An angle given in degrees, radians; 0 if it is not given.
-pub fn turn(reader: &mut Reader, field: &Field<f64>) -> f64 {
-    reader
-        .number(field, "turn")
-        .map_or(0.0, |(degrees, _)| degrees.to_radians())
 }
 
 /// A count of at least one.

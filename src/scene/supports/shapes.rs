@@ -134,3 +134,13 @@ pub fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
         .map(|i| to_segment(p, polygon[i], polygon[(i + 1) % n]))
         .fold(f64::INFINITY, f64::min)
 }
+
+/// Lowest and highest corner of a box around the points.
+pub fn bounds(points: &[DVec2]) -> Option<(DVec2, DVec2)> {
+    let first = *points.first()?;
+    Some(
+        points
+            .iter()
+            .fold((first, first), |(l, h), p| (l.min(*p), h.max(*p))),
+    )
+}

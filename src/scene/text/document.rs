@@ -2,11 +2,12 @@
 
 use super::explain;
 use super::lexer;
-use super::reader::{Span, error_at, printable};
+use super::place::{Span, error_at};
 use super::tree;
+use super::wanted::Wanted;
+use super::wording::printable;
 use crate::diag::{Diagnostic, Place};
 use crate::scene::defaults;
-use crate::scene::language::raw::Wanted;
 use serde::de::DeserializeOwned;
 
 /// Text that reads as RON as far as its brackets go.

@@ -1,8 +1,9 @@
 //! From the errors of RON and of the lexer to sentences with places.
 
-use super::lexer::{self, Broken, Kind};
-use super::reader::{Span, error_at, nearest, printable};
+use super::lexer::{self, Broken, TokenKind};
+use super::place::{Span, error_at};
 use super::tree;
+use super::wording::{nearest, printable};
 use crate::diag::Diagnostic;
 use ron::error::{Error, Position, SpannedError};
 
@@ -102,9 +103,9 @@ pub fn explain(
 pub const UNKNOWN_FIELD: &str = "unknown field";
 
 fn unknown_fields(slice: &str, base: usize, expected: &[&'static str]) -> Vec<Diagnostic> {
-    let unknown = tree::entries(slice)
+    let unknown = tree::members(slice)
         .into_iter()
-        .filter_map(|entry| entry.name);
+        .filter_map(|member| member.name);
     let unknown = unknown.filter(|name| !expected.contains(&&slice[name.clone()]));
     unknown
         .map(|name| {
@@ -134,9 +135,9 @@ fn no_colon(slice: &str, span: &Span, found: &str) -> Diagnostic {
 }
 
 fn duplicate_field(slice: &str, span: &Span, field: &str) -> Diagnostic {
-    let names = tree::entries(slice)
+    let names = tree::members(slice)
         .into_iter()
-        .filter_map(|entry| entry.name);
+        .filter_map(|member| member.name);
     let second = names.filter(|n| &slice[n.clone()] == field).nth(1);
     let at = second.map_or(span.clone(), |n| span.start + n.start..span.start + n.end);
     error_at(&at, format!("`{field}` is given twice")).label("the second one")
@@ -254,10 +255,10 @@ fn decimal_comma(text: &str, span: &Span, at: usize) -> Option<Diagnostic> {
     };
     tokens.windows(4).find_map(|w| {
         let (colon, left, comma, right) = (&w[0], &w[1], &w[2], &w[3]);
-        let shaped = colon.kind == Kind::Mark(b':')
-            && left.kind == Kind::Word
-            && comma.kind == Kind::Mark(b',')
-            && right.kind == Kind::Word
+        let shaped = colon.kind == TokenKind::Mark(b':')
+            && left.kind == TokenKind::Word
+            && comma.kind == TokenKind::Mark(b',')
+            && right.kind == TokenKind::Word
             && left.span.end == comma.span.start
             && comma.span.end == right.span.start
             && number(&left.span)

@@ -10,7 +10,7 @@ use std::ops::Range;
 pub const DEEPEST: usize = 64;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum TokenKind {
     /// One of `( [ {`.
     Open(u8),
     /// One of `) ] }`.
@@ -25,7 +25,7 @@ pub enum Kind {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
-    pub kind: Kind,
+    pub kind: TokenKind,
     pub span: Range<usize>,
 }
 
@@ -69,25 +69,25 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
                 at += comment(rest).ok_or(Broken::OpenComment(at..at + 2))?;
                 continue;
             }
-            b @ (b'(' | b'[' | b'{') => (Kind::Open(b), 1),
-            b @ (b')' | b']' | b'}') => (Kind::Close(b), 1),
-            b @ (b',' | b':') => (Kind::Mark(b), 1),
+            b @ (b'(' | b'[' | b'{') => (TokenKind::Open(b), 1),
+            b @ (b')' | b']' | b'}') => (TokenKind::Close(b), 1),
+            b @ (b',' | b':') => (TokenKind::Mark(b), 1),
             b'"' => (
-                Kind::Text,
+                TokenKind::Text,
                 string(rest).ok_or(Broken::OpenString(many_lined.clone().unwrap_or(at..at + 1)))?,
             ),
             b'r' if raw_hashes(rest).is_some() => (
-                Kind::Text,
+                TokenKind::Text,
                 raw_string(rest).ok_or(Broken::OpenString(at..at + 2))?,
             ),
-            _ => (Kind::Word, word(rest)),
+            _ => (TokenKind::Word, word(rest)),
         };
         let span = at..at + length;
-        if kind == Kind::Text && many_lined.is_none() && rest[..length].contains('\n') {
+        if kind == TokenKind::Text && many_lined.is_none() && rest[..length].contains('\n') {
             let line = rest.find('\n').unwrap_or(length);
             many_lined = Some(at..at + line);
         }
-        if let Some((i, c)) = (kind == Kind::Word)
+        if let Some((i, c)) = (kind == TokenKind::Word)
             .then(|| smart_quote(&rest[..length]))
             .flatten()
         {
@@ -107,8 +107,8 @@ pub fn balanced(tokens: &[Token]) -> Result<(), Broken> {
     let mut open: Vec<(u8, Range<usize>)> = Vec::new();
     for token in tokens {
         match token.kind {
-            Kind::Open(b) => open.push((b, token.span.clone())),
-            Kind::Close(b) => match open.pop() {
+            TokenKind::Open(b) => open.push((b, token.span.clone())),
+            TokenKind::Close(b) => match open.pop() {
                 None => return Err(Broken::StrayBracket(token.span.clone())),
                 Some((o, span)) if partner(o) != b => {
                     return Err(Broken::OpenBracket {

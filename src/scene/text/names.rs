@@ -1,6 +1,8 @@
 //! Names that become file names and object names.
 
-use super::reader::{Reader, Span, error_at, printable, warning_at};
+use super::place::{Span, error_at, warning_at};
+use super::reader::Reader;
+use super::wording::printable;
 use crate::scene::defaults;
 
 /// Names no Windows file may have.

@@ -1,16 +1,14 @@
 //! From raw values to checked ones.
 //!
-//! A [`Reader`] collects every problem of one scene; asking it for a value either gives it or notes why not.
+//! A [`Reader`] collects every problem of one text; asking it for a value either gives it or notes why not.
 
 use super::explain::explain;
+use super::place::{Span, error_at, placed};
 use super::spanned::{Field, Spanned};
-use crate::diag::{Diagnostic, Place};
+use super::wanted::Wanted;
+use super::wording::short;
+use crate::diag::Diagnostic;
 use crate::scene::defaults;
-use crate::scene::language::raw::Wanted;
-use std::ops::Range;
-
-/// Byte range of the scene's text.
-pub type Span = Range<usize>;
 
 /// Collects the problems of one text.
 pub struct Reader<'a> {
@@ -21,22 +19,6 @@ pub struct Reader<'a> {
     /// Millimetres per unit of the scene.
     pub unit: f64,
     pub unit_name: &'static str,
-}
-
-/// An error at a place of the scene.
-pub fn error_at(span: &Span, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(message).at(Place::Scene(span.clone()))
-}
-
-/// A warning at a place of the scene.
-pub fn warning_at(span: &Span, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::warning(message).at(Place::Scene(span.clone()))
-}
-
-/// A problem that points at `span` unless it knows a better place.
-pub fn placed(mut problem: Diagnostic, span: &Span) -> Diagnostic {
-    problem.place.get_or_insert(Place::Scene(span.clone()));
-    problem
 }
 
 impl<'a> Reader<'a> {
@@ -192,6 +174,35 @@ impl<'a> Reader<'a> {
         None
     }
 
+    /// A length above zero.
+    pub fn positive(&mut self, field: &Field<f64>, name: &str) -> Option<f64> {
+        self.positive_at(field, name).map(|(value, _)| value)
+    }
+
+    /// A length above zero and its place.
+    pub fn positive_at(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+        let (value, span) = self.length(field, name)?;
+        if value > 0.0 {
+            return Some((value, span));
+        }
+        self.error(
+            &span,
+            format!("`{name}` is {value} mm; it must be more than 0"),
+        );
+        None
+    }
+
+    /// An angle given in degrees, radians; 0 if it is not given.
+    pub fn turn(&mut self, field: &Field<f64>) -> f64 {
+        self.number(field, "turn")
+            .map_or(0.0, |(degrees, _)| degrees.to_radians())
+    }
+
+    /// Yes or no, or what holds if the text says neither.
+    pub fn flag(&mut self, field: &Field<bool>, default: bool) -> bool {
+        self.given(field).map_or(default, |(value, _)| *value)
+    }
+
     /// A point in millimetres.
     pub fn point<const N: usize>(
         &mut self,
@@ -261,40 +272,6 @@ impl<'a> Reader<'a> {
         );
         None
     }
-}
-
-/// A number for people: at most three decimals, none without need.
-pub fn short(value: f64) -> String {
-    let rounded = (value * 1e3).round() / 1e3;
-    if value != 0.0 && rounded == 0.0 {
-        format!("{value:e}")
-    } else {
-        format!("{rounded}")
-    }
-}
-
-/// `, did you mean ...` for the nearest of `known`, if any is near.
-pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
-    let lower = found.to_lowercase();
-    let likeness = |k: &str| strsim::jaro_winkler(&lower, &k.to_lowercase());
-    let best = known.into_iter().map(|k| (likeness(k), k)).fold(
-        None,
-        |best: Option<(f64, &str)>, next| match best {
-            Some(b) if b.0 >= next.0 => Some(b),
-            _ => Some(next),
-        },
-    )?;
-    (best.0 > 0.78).then_some(best.1)
-}
-
-/// Makes text fit for one line of a terminal: control and direction characters escaped, cut at 60 characters or the first line end.
-pub fn printable(text: &str) -> String {
-    let line = text.lines().next().unwrap_or("");
-    let mut out = crate::diag::escaped(&line.chars().take(60).collect::<String>());
-    if line.len() < text.len() || line.chars().count() > 60 {
-        out.push_str("...");
-    }
-    out
 }
 
 /// The first token of what stands at `place`, with its bracket.

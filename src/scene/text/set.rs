@@ -3,13 +3,13 @@
 //! A path is field names and list places: `pillars[0].height`, `views[front].eye`, `output.picture_size`. A list place is a
 //! number from 0 or the `name` of the item. Works on the text, so that messages about the new value show it in place.
 
-use super::reader::nearest;
-use super::tree::{self, Entry};
+use super::tree::{self, Member};
+use super::wording::nearest;
 use crate::diag::{Diagnostic, escaped};
 
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Step {
+enum PathStep {
     Field(String),
     Item(String),
 }
@@ -34,23 +34,23 @@ pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
     let (mut start, mut end) = (0, text.len());
     for (depth, step) in steps.iter().enumerate() {
         let inside = &text[start..end];
-        let entries = tree::entries(inside);
-        if let Some(entry) = find(inside, &entries, step) {
-            (start, end) = (start + entry.value.start, start + entry.value.end);
+        let members = tree::members(inside);
+        if let Some(member) = find(inside, &members, step) {
+            (start, end) = (start + member.value.start, start + member.value.end);
             continue;
         }
         return match step {
-            Step::Field(_) => {
+            PathStep::Field(_) => {
                 let at = tree::inner_end(inside)
                     .map(|at| start + at)
                     .ok_or_else(|| wrong("the scene has no fields there"))?;
-                insert(text, start, at, &entries, &steps[depth..], value)
+                insert(text, start, at, &members, &steps[depth..], value)
                     .ok_or_else(|| wrong("a list item cannot be added"))
             }
-            Step::Item(item) => Err(no_item(
+            PathStep::Item(item) => Err(no_item(
                 wrong(&format!("there is no item [{item}]")),
                 inside,
-                &entries,
+                &members,
                 item,
             )),
         };
@@ -66,22 +66,22 @@ pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
 /// The text of the value that a path leads to.
 pub fn value<'a>(text: &'a str, path: &str) -> Option<&'a str> {
     steps(path)?.iter().try_fold(text, |inside, step| {
-        let entry = find(inside, &tree::entries(inside), step)?;
-        Some(&inside[entry.value])
+        let member = find(inside, &tree::members(inside), step)?;
+        Some(&inside[member.value])
     })
 }
 
-fn steps(path: &str) -> Option<Vec<Step>> {
+fn steps(path: &str) -> Option<Vec<PathStep>> {
     let mut steps = Vec::new();
     for part in path.trim().split('.') {
         let (name, mut items) = part.split_at(part.find('[').unwrap_or(part.len()));
         if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
             return None;
         }
-        steps.push(Step::Field(name.to_string()));
+        steps.push(PathStep::Field(name.to_string()));
         while let Some(rest) = items.strip_prefix('[') {
             let (item, after) = rest.split_once(']')?;
-            steps.push(Step::Item(item.to_string()));
+            steps.push(PathStep::Item(item.to_string()));
             items = after;
         }
         if !items.is_empty() {
@@ -91,14 +91,14 @@ fn steps(path: &str) -> Option<Vec<Step>> {
     Some(steps)
 }
 
-fn find(inside: &str, entries: &[Entry], step: &Step) -> Option<Entry> {
+fn find(inside: &str, members: &[Member], step: &PathStep) -> Option<Member> {
     let found = match step {
-        Step::Field(name) => entries
+        PathStep::Field(name) => members
             .iter()
             .find(|e| e.name.as_ref().is_some_and(|n| &inside[n.clone()] == name)),
-        Step::Item(item) => match item.parse::<usize>() {
-            Ok(index) => entries.get(index),
-            Err(_) => entries
+        PathStep::Item(item) => match item.parse::<usize>() {
+            Ok(index) => members.get(index),
+            Err(_) => members
                 .iter()
                 .find(|e| name_of(&inside[e.value.clone()]).as_deref() == Some(item)),
         },
@@ -108,14 +108,14 @@ fn find(inside: &str, entries: &[Entry], step: &Step) -> Option<Entry> {
 
 /// The text of a struct's `name` field without its quotes.
 fn name_of(value: &str) -> Option<String> {
-    let entry = tree::entries(value)
+    let member = tree::members(value)
         .into_iter()
         .find(|e| e.name.as_ref().is_some_and(|n| &value[n.clone()] == "name"))?;
-    Some(value[entry.value].trim_matches('"').to_string())
+    Some(value[member.value].trim_matches('"').to_string())
 }
 
-fn no_item(problem: Diagnostic, inside: &str, entries: &[Entry], item: &str) -> Diagnostic {
-    let names: Vec<String> = entries
+fn no_item(problem: Diagnostic, inside: &str, members: &[Member], item: &str) -> Diagnostic {
+    let names: Vec<String> = members
         .iter()
         .filter_map(|e| name_of(&inside[e.value.clone()]))
         .collect();
@@ -123,7 +123,7 @@ fn no_item(problem: Diagnostic, inside: &str, entries: &[Entry], item: &str) -> 
         Some(guess) => problem.help(format!("did you mean [{}]?", escaped(guess))),
         None => problem.help(format!(
             "the list has {} items, counted from 0",
-            entries.len()
+            members.len()
         )),
     }
 }
@@ -133,13 +133,15 @@ fn insert(
     text: &str,
     start: usize,
     at: usize,
-    entries: &[Entry],
-    steps: &[Step],
+    members: &[Member],
+    steps: &[PathStep],
     value: &str,
 ) -> Option<String> {
     let mut added = value.trim().to_string();
     for (i, step) in steps.iter().enumerate().rev() {
-        let Step::Field(name) = step else { return None };
+        let PathStep::Field(name) = step else {
+            return None;
+        };
         added = if i == 0 {
             format!("{name}: {added}")
         } else {
@@ -147,7 +149,7 @@ fn insert(
         };
     }
     // A comma right after the last value: a comment may follow it, so not at the bracket.
-    match entries.last() {
+    match members.last() {
         None => Some(format!("{}{added}{}", &text[..at], &text[at..])),
         Some(last) => {
             let after = start + last.value.end;

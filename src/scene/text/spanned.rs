@@ -22,6 +22,9 @@ pub struct Spanned<T> {
     pub value: Result<T, SpannedError>,
 }
 
+/// A list whose items fail one by one.
+pub type List<T> = Vec<Spanned<T>>;
+
 /// A field that may be left out.
 #[derive(Debug, Default)]
 pub enum Field<T> {

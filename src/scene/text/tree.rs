@@ -1,20 +1,23 @@
 //! Walking RON text by path without knowing its types: which fields a value has and where they stand.
 
-use super::lexer::{self, Kind, Token};
+use super::lexer::{self, Token, TokenKind};
 use std::ops::Range;
 
 /// One item of a list or one field of a struct, byte ranges of the text it was found in.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Entry {
+pub struct Member {
     /// The field's name; `None` in lists and tuples.
     pub name: Option<Range<usize>>,
     pub value: Range<usize>,
 }
 
-/// The direct entries of the first bracketed value of `text`; none if it is not bracketed.
-pub fn entries(text: &str) -> Vec<Entry> {
+/// The direct members of the first bracketed value of `text`; none if it is not bracketed.
+pub fn members(text: &str) -> Vec<Member> {
     let tokens = skip_attribute(text);
-    let Some(open) = tokens.iter().position(|t| matches!(t.kind, Kind::Open(_))) else {
+    let Some(open) = tokens
+        .iter()
+        .position(|t| matches!(t.kind, TokenKind::Open(_)))
+    else {
         return Vec::new();
     };
     let mut list = Vec::new();
@@ -22,19 +25,19 @@ pub fn entries(text: &str) -> Vec<Entry> {
     let mut first = open + 1;
     for (i, token) in tokens.iter().enumerate().skip(open) {
         let ends = match token.kind {
-            Kind::Open(_) => {
+            TokenKind::Open(_) => {
                 depth += 1;
                 false
             }
-            Kind::Close(_) => {
+            TokenKind::Close(_) => {
                 depth -= 1;
                 depth == 0
             }
-            Kind::Mark(b',') => depth == 1,
+            TokenKind::Mark(b',') => depth == 1,
             _ => false,
         };
         if ends {
-            list.extend(entry(&tokens[first..i]));
+            list.extend(member(&tokens[first..i]));
             first = i + 1;
         }
         if depth == 0 {
@@ -44,15 +47,15 @@ pub fn entries(text: &str) -> Vec<Entry> {
     list
 }
 
-/// The range inside the first bracket of `text` where one more entry can be put: just before its end.
+/// The range inside the first bracket of `text` where one more member can be put: just before its end.
 pub fn inner_end(text: &str) -> Option<usize> {
     let tokens = skip_attribute(text);
     let mut depth = 0usize;
     for token in tokens {
         match token.kind {
-            Kind::Open(_) => depth += 1,
-            Kind::Close(_) if depth == 1 => return Some(token.span.start),
-            Kind::Close(_) => depth = depth.saturating_sub(1),
+            TokenKind::Open(_) => depth += 1,
+            TokenKind::Close(_) if depth == 1 => return Some(token.span.start),
+            TokenKind::Close(_) => depth = depth.saturating_sub(1),
             _ => {}
         }
     }
@@ -66,13 +69,13 @@ pub fn without_field(text: &str, name: usize) -> String {
     let mut end = name;
     for token in tokens.iter().filter(|t| t.span.start >= name) {
         match token.kind {
-            Kind::Open(_) => depth += 1,
-            Kind::Close(_) if depth == 0 => break,
-            Kind::Close(_) => depth -= 1,
+            TokenKind::Open(_) => depth += 1,
+            TokenKind::Close(_) if depth == 0 => break,
+            TokenKind::Close(_) => depth -= 1,
             _ => {}
         }
         end = token.span.end;
-        if depth == 0 && token.kind == Kind::Mark(b',') {
+        if depth == 0 && token.kind == TokenKind::Mark(b',') {
             break;
         }
     }
@@ -84,16 +87,18 @@ pub fn without_field(text: &str, name: usize) -> String {
     )
 }
 
-fn entry(tokens: &[Token]) -> Option<Entry> {
+fn member(tokens: &[Token]) -> Option<Member> {
     let (first, last) = (tokens.first()?, tokens.last()?);
-    let named =
-        first.kind == Kind::Word && tokens.get(1).is_some_and(|t| t.kind == Kind::Mark(b':'));
+    let named = first.kind == TokenKind::Word
+        && tokens
+            .get(1)
+            .is_some_and(|t| t.kind == TokenKind::Mark(b':'));
     let value = if named {
         tokens.get(2)?.span.start
     } else {
         first.span.start
     };
-    Some(Entry {
+    Some(Member {
         name: named.then(|| first.span.clone()),
         value: value..last.span.end,
     })
@@ -108,7 +113,7 @@ pub fn skip_attribute(text: &str) -> Vec<Token> {
     {
         let end = tokens
             .iter()
-            .position(|t| t.kind == Kind::Close(b']'))
+            .position(|t| t.kind == TokenKind::Close(b']'))
             .map_or(tokens.len(), |i| i + 1);
         tokens.drain(..end);
     }

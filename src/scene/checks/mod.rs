@@ -1,0 +1,34 @@
+//! Rules that join several values: pillars that overlap, eyes in the wrong place, forests no printer can make.
+//!
+//! Takes what stands and is seen, as [`Checked`] and eyes; gives problems to the reader of the scene's text. What one value alone can
+//! have wrong is told where it is read.
+
+mod base;
+mod checked;
+mod eyes;
+mod pillars;
+
+pub use checked::Checked;
+
+use crate::scene::resolved::Printer;
+use crate::scene::text::Reader;
+use crate::scene::views::Eye;
+
+/// All of them.
+pub fn all(reader: &mut Reader, checked: &Checked, eyes: &[Eye], printer: &Printer) {
+    pillars::slimness(reader, checked.pillars, printer);
+    if !checked.mend {
+        pillars::gaps(reader, checked.pillars, printer);
+        if let Some(base) = checked.base {
+            base::standing(reader, checked.pillars, base);
+        }
+    }
+    if let Some(room) = checked.room {
+        pillars::slimness(reader, &room.samples, printer);
+        let problem = checked.base.and_then(|base| base::region(room, base));
+        reader.problems.extend(problem);
+    }
+    base::size(reader, checked, printer);
+    eyes::pairs(reader, eyes);
+    eyes::places(reader, checked, eyes);
+}

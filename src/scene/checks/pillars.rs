@@ -1,0 +1,189 @@
+//! Pillars against each other and against the nozzle.
+
+use crate::diag::Diagnostic;
+use crate::scene::defaults;
+use crate::scene::resolved::Printer;
+use crate::scene::supports::{Standing, shapes};
+use crate::scene::text::{Reader, error_at, short, warning_at};
+use std::collections::BTreeMap;
+
+/// Overlapping pillars are errors, gaps that fuse on the printer warnings: the first of each pair of places in the text.
+pub fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+    let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
+    let mut worst: BTreeMap<(usize, usize, bool), Tight> = BTreeMap::new();
+    let mut work = 0u64;
+    for (i, j) in neighbours(pillars, narrow) {
+        let (a, b) = (&pillars[i], &pillars[j]);
+        let round = a.round && b.round;
+        work += if round {
+            1
+        } else {
+            (a.profile.len() * b.profile.len()) as u64
+        };
+        if work > defaults::MOST_CORNER_PAIRS {
+            // An overlap among them is told below and enough.
+            if worst.keys().all(|(.., overlap)| !overlap) {
+                let text = "outlines too detailed for pillars so close together: their gaps cannot be checked";
+                reader.problems.push(
+                    error_at(&b.span, text)
+                        .help("fewer `sides` or `points`, or pillars farther apart"),
+                );
+            }
+            break;
+        }
+        let gap = if round {
+            a.axis.distance(b.axis) - a.reach - b.reach
+        } else {
+            shapes::gap(&a.profile, &b.profile)
+        };
+        if gap < narrow {
+            let key = (a.span.start, b.span.start, gap <= 0.0);
+            let tight = worst.entry(key).or_insert(Tight {
+                a: i,
+                b: j,
+                gap,
+                pairs: 0,
+            });
+            tight.pairs += 1;
+            if gap < tight.gap {
+                (tight.a, tight.b, tight.gap) = (i, j, gap);
+            }
+        }
+    }
+    // Twenty say as much as two hundred.
+    for tight in worst.values().take(20) {
+        let problem = gap_problem(&pillars[tight.a], &pillars[tight.b], tight, narrow);
+        reader.problems.push(problem);
+    }
+}
+
+/// The tightest of several pairs of pillars.
+struct Tight {
+    a: usize,
+    b: usize,
+    /// Millimetres; zero or less if they overlap.
+    gap: f64,
+    pairs: usize,
+}
+
+fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, narrow: f64) -> Diagnostic {
+    let (gap, count, overlap) = (tight.gap, tight.pairs, tight.gap <= 0.0);
+    let more = if count > 1 {
+        format!(" (and {} more pairs)", count - 1)
+    } else {
+        String::new()
+    };
+    let apart = short(a.axis.distance(b.axis));
+    if overlap {
+        let size = |p: &Standing| {
+            if p.round {
+                p.reach
+            } else {
+                shapes::narrowest(&p.profile)
+            }
+        };
+        let sizes = if (size(a) - size(b)).abs() < 1e-6 {
+            short(size(a))
+        } else {
+            format!("{} mm and {}", short(size(a)), short(size(b)))
+        };
+        let radii = match (a.round, b.round) {
+            (true, true) => format!("radius {sizes} mm but "),
+            (false, false) => format!("{sizes} mm wide but "),
+            _ => String::new(),
+        };
+        let label = if gap < 0.0 {
+            format!("overlaps {} by {} mm", a.name, short(-gap))
+        } else {
+            format!("touches or overlaps {}", a.name)
+        };
+        let wanted = a.reach + b.reach + narrow;
+        return error_at(
+            &b.span,
+            format!("pillars overlap: {radii}centres {apart} mm apart{more}"),
+        )
+        .label(label)
+        .help(format!(
+            "put the centres at least {} mm apart, or make the pillars thinner",
+            short(wanted)
+        ));
+    }
+    warning_at(
+        &b.span,
+        format!(
+            "the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed",
+            a.name,
+            b.name,
+            short(gap)
+        ),
+    )
+    .help(format!(
+        "leave at least {narrow} mm, or change `printer: (nozzle: ...)`"
+    ))
+}
+
+/// Pairs of pillars whose circles come nearer than `margin`, in order: a sweep over x.
+fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
+    let mut order: Vec<usize> = (0..pillars.len()).collect();
+    order.sort_by(|&a, &b| {
+        pillars[a]
+            .axis
+            .x
+            .total_cmp(&pillars[b].axis.x)
+            .then(a.cmp(&b))
+    });
+    let widest = pillars.iter().map(|p| p.reach).fold(0.0, f64::max);
+    let mut pairs = Vec::new();
+    for (k, &i) in order.iter().enumerate() {
+        for &j in &order[k + 1..] {
+            if pillars[j].axis.x - pillars[i].axis.x > pillars[i].reach + widest + margin {
+                break;
+            }
+            if pillars[i].axis.distance(pillars[j].axis)
+                < pillars[i].reach + pillars[j].reach + margin
+            {
+                pairs.push((i.min(j), i.max(j)));
+            }
+            // A heap of pillars in one spot would make this quadratic; what is found by then is enough.
+            if pairs.len() > 200_000 {
+                return pairs;
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Pillars too thin for the nozzle or too slim to stand; once per place in the text.
+pub fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+    let thin = defaults::THIN_WALL_NOZZLES * printer.nozzle;
+    let mut seen = std::collections::BTreeSet::new();
+    for pillar in pillars {
+        let width = shapes::narrowest(&pillar.profile);
+        if width < thin && seen.insert((pillar.span.start, 0)) {
+            reader.problems.push(
+                warning_at(
+                    &pillar.span,
+                    format!(
+                        "{} is {} mm thin: walls below {} mm vanish or break with a {} mm nozzle",
+                        pillar.name,
+                        short(width),
+                        short(thin),
+                        printer.nozzle
+                    ),
+                )
+                .help(format!(
+                    "make it at least {} mm wide, or change `printer: (nozzle: ...)`",
+                    short(thin)
+                )),
+            );
+        }
+        let slim = pillar.height / width;
+        if slim > defaults::SLIMMEST && seen.insert((pillar.span.start, 1)) {
+            reader.problems.push(
+                warning_at(&pillar.span, format!("{} is {} times as high as it is wide: it will break or wobble while printed", pillar.name, short(slim.round())))
+                    .help(format!("keep it below {} times: thicker or lower pillars", defaults::SLIMMEST)),
+            );
+        }
+    }
+}

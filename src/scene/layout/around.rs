@@ -1,0 +1,14 @@
+//! What pillars depend on besides their own part of the scene.
+
+use crate::scene::request::{Purpose, ReadFile};
+use crate::scene::resolved::Printer;
+
+/// What of the scene the pillars depend on.
+pub struct Around<'a> {
+    pub read: ReadFile<'a>,
+    pub purpose: Purpose,
+    pub printer: &'a Printer,
+    /// Names of the views that could be read, and how many there should be.
+    pub views: Vec<&'a str>,
+    pub view_count: usize,
+}

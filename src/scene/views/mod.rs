@@ -1,0 +1,11 @@
+//! Views: eyes, what they look at and which models they see.
+//!
+//! Takes the scene's `views` and its models; gives [`Draft`]s, then, once files are read, [`View`](crate::view::View)s.
+
+mod draft;
+mod eye;
+mod placed;
+
+pub use draft::{Draft, drafts};
+pub use eye::{Eye, Stand};
+pub use placed::view;
