@@ -4,7 +4,7 @@
 //! neither form a cycle nor multiply without end.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::read::NamedMesh;
+use crate::formats::body::NamedMesh;
 use crate::formats::text::excerpt;
 use crate::formats::xml_3mf::{self, Instance, ModelPart, XmlObject};
 use crate::mesh::Attributes;

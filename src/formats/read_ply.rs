@@ -5,8 +5,8 @@
 //! numbers of vertices are kept where they can be used.
 
 use crate::diag::{Diagnostic, Place, Warned};
+use crate::formats::body::NamedMesh;
 use crate::formats::columns::Columns;
-use crate::formats::read::NamedMesh;
 use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
 use crate::mesh::polygon::triangulate;
 use crate::mesh::{TriMesh, Uvs};

@@ -5,7 +5,7 @@
 //! whoever writes the model again finds every corner's texture point and whoever needs a value at a vertex of the model gets
 //! one. Placing moves vertices only, so attributes do not know of it.
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec2;
 
 /// Marks a face corner without a texture point.

@@ -8,7 +8,7 @@ use super::raw::{List, RawModelRegion, RawVolume};
 use super::reader::{Reader, Span, error_at, nearest, printable, short, warning_at};
 use super::spanned::Field;
 use crate::diag::Diagnostic;
-use crate::formats;
+use crate::intake;
 use crate::view::Marks;
 use glam::DVec3;
 
@@ -121,7 +121,7 @@ fn place(
 pub fn marks(
     reader: &mut Reader,
     regions: &[Region],
-    model: &formats::Model,
+    model: &intake::Admitted,
     name: &str,
     file: &str,
 ) -> Marks {
@@ -170,7 +170,7 @@ impl Region {
     ///
     /// # Errors
     /// A region without vertices, or an attribute that is not there or is no weight.
-    fn shares(&self, model: &formats::Model, file: &str) -> Result<Vec<f64>, Diagnostic> {
+    fn shares(&self, model: &intake::Admitted, file: &str) -> Result<Vec<f64>, Diagnostic> {
         let points = &model.mesh.vertices;
         let (lo, hi) = model.mesh.bounds().unwrap_or_default();
         let within = |inside: &dyn Fn(&DVec3) -> bool, what: String| {
@@ -203,7 +203,7 @@ impl Region {
     fn painted(
         &self,
         name: &str,
-        model: &formats::Model,
+        model: &intake::Admitted,
         file: &str,
     ) -> Result<Vec<f64>, Diagnostic> {
         let original = &model.original;

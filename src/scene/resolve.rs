@@ -261,7 +261,7 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
 fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     let parsed = read(&model.file)
-        .and_then(|bytes| crate::formats::load_original(&model.file, &bytes, false));
+        .and_then(|bytes| crate::intake::load_original(&model.file, &bytes, false));
     let Some(loaded) = reader.read(parsed, &model.file_span) else {
         return;
     };
