@@ -9,7 +9,7 @@
 //! Symbols: eye `o`; `lambda0 = |v - o|`, `lambda = s lambda0`; the relief on a support is `o + (p - o) / mu_g`.
 
 use crate::groups::Groups;
-use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar};
 use crate::mimic::Depths;
 use crate::steps::Torn;
 use crate::view::{PlacedModel, View};
@@ -182,7 +182,7 @@ impl<'a> Input<'a> {
         }
         for scalar in &own.scalars {
             if all.scalars.iter().all(|s| s.name != scalar.name) {
-                all.scalars.push(Scalar {
+                all.scalars.push(VertexScalar {
                     name: scalar.name.clone(),
                     values: vec![0.0; before],
                 });
@@ -266,7 +266,7 @@ impl<'a> Input<'a> {
                 .attributes
                 .scalars
                 .iter()
-                .map(|s| Scalar {
+                .map(|s| VertexScalar {
                     name: s.name.clone(),
                     values: picked(&s.values, &vertices),
                 })

@@ -5,8 +5,8 @@
 //! [`crate::surface::Surface`], which is for other programs, may have any.
 
 mod body;
+mod channels;
 mod colours;
-mod columns;
 mod glb;
 pub mod markup;
 mod obj_check;

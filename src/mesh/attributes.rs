@@ -21,7 +21,7 @@ pub struct Uvs {
 
 /// A number for every vertex under a name of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scalar {
+pub struct VertexScalar {
     /// Without blanks.
     pub name: String,
     /// Finite. Index: vertex.
@@ -35,7 +35,7 @@ pub struct Attributes {
     pub colours: Vec<[f64; 4]>,
     pub uvs: Option<Uvs>,
     /// In the file's order; names differ.
-    pub scalars: Vec<Scalar>,
+    pub scalars: Vec<VertexScalar>,
 }
 
 /// Names of the colour's channels as attributes.

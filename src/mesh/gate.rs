@@ -30,7 +30,7 @@ pub struct Gated {
     pub mesh: TriMesh,
     /// Where the vertices of the mesh that was read went; `None`: dropped.
     pub vertex_of: Vec<Option<u32>>,
-    pub repairs: Repairs,
+    pub corrections: Corrections,
     /// What keeps the mesh from being a sound closed surface.
     pub defects: Vec<Defect>,
     /// Faces thinner than [`NEEDLE`], though not without area (that is a defect).
@@ -39,7 +39,7 @@ pub struct Gated {
 
 /// How often what was done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Repairs {
+pub struct Corrections {
     /// Vertices dropped that no face uses.
     pub stray: usize,
     /// Vertices joined across cracks.
@@ -113,7 +113,7 @@ pub fn gate(mut mesh: TriMesh) -> Result<Gated, Refusal> {
     Ok(Gated {
         mesh,
         vertex_of,
-        repairs: Repairs {
+        corrections: Corrections {
             stray,
             cracks: joined,
             repeated,

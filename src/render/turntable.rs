@@ -105,8 +105,8 @@ impl Turntable {
         let aspect = (self.hi.x - self.lo.x) / (self.hi.y - self.lo.y);
         let high = f64::from(size_px.clamp(16, 2048));
         let scale = (WIDEST / (PICTURES as f64 * high * aspect)).min(1.0);
-        let whole = |x: f64| (x * scale).round().max(8.0) as usize;
-        (whole(high * aspect), whole(high))
+        let pixels = |x: f64| (x * scale).round().max(8.0) as usize;
+        (pixels(high * aspect), pixels(high))
     }
 }
 

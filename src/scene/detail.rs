@@ -3,7 +3,7 @@
 use super::defaults;
 use super::reader::Reader;
 use super::spanned::Field;
-use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs, simplified};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, simplified};
 use crate::view::Marks;
 use glam::DVec2;
 
@@ -88,9 +88,9 @@ fn colours(original: &Original, count: usize, kept: &[u32]) -> Vec<[f64; 4]> {
     }
 }
 
-fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<Scalar> {
-    let scalar = |s: &Scalar| {
-        Some(Scalar {
+fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<VertexScalar> {
+    let scalar = |s: &VertexScalar| {
+        Some(VertexScalar {
             name: s.name.clone(),
             values: picked(&original.values(&s.name, count)?, kept),
         })

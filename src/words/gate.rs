@@ -1,7 +1,7 @@
 //! What [`gate`](crate::mesh::gate) did to a model and could not do, and what [`size`](crate::mesh::size) doubts.
 
 use crate::diag::{Diagnostic, Place};
-use crate::mesh::gate::{Gated, Refusal, Repairs};
+use crate::mesh::gate::{Corrections, Gated, Refusal};
 use crate::mesh::size::{SizeDoubt, SizeDoubtKind};
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub fn refused(file: &str, why: Refusal) -> Diagnostic {
 
 /// One warning of all that was done or left; none if the model was sound.
 pub fn repaired(file: &str, gated: &Gated) -> Option<Diagnostic> {
-    let (done, left) = (done(&gated.repairs), left(gated));
+    let (done, left) = (done(&gated.corrections), left(gated));
     let mut message = String::new();
     if !done.is_empty() {
         message = format!("repaired on loading: {}", done.join(", "));
@@ -43,15 +43,15 @@ pub fn repaired(file: &str, gated: &Gated) -> Option<Diagnostic> {
     })
 }
 
-fn done(repairs: &Repairs) -> Vec<String> {
-    let Repairs {
+fn done(corrections: &Corrections) -> Vec<String> {
+    let Corrections {
         stray,
         cracks,
         repeated,
         duplicates,
         turned,
         outwards,
-    } = *repairs;
+    } = *corrections;
     let done = [
         (
             "dropped",
