@@ -11,6 +11,7 @@
 //!
 //! | from | by | to |
 //! |---|---|---|
+//! | a model's file | [`intake::load_original`] | [`intake::Admitted`]: a mesh fit to be looked at, and what its file says besides |
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
 //! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
@@ -145,6 +146,8 @@ pub mod certify;
 pub mod kinds;
 
 pub mod words;
+
+pub mod intake;
 
 pub mod report;
 

@@ -10,7 +10,7 @@
 
 use crate::groups::Groups;
 use crate::index::GroupId;
-use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs};
+use crate::mesh::{Attributes, NO_UV, Original, VertexScalar, TriMesh, Uvs};
 use crate::mimic::Depths;
 use crate::sight::Sight;
 use crate::steps::Torn;
@@ -185,7 +185,7 @@ impl<'a> Input<'a> {
         }
         for scalar in &own.scalars {
             if all.scalars.iter().all(|s| s.name != scalar.name) {
-                all.scalars.push(Scalar {
+                all.scalars.push(VertexScalar {
                     name: scalar.name.clone(),
                     values: vec![0.0; before],
                 });
@@ -269,7 +269,7 @@ impl<'a> Input<'a> {
                 .attributes
                 .scalars
                 .iter()
-                .map(|s| Scalar {
+                .map(|s| VertexScalar {
                     name: s.name.clone(),
                     values: picked(&s.values, &vertices),
                 })

@@ -1,27 +1,20 @@
 //! What each command does, in order.
 
-use super::figures;
-use super::files::{self, SceneFiles};
-use super::messages::{Messages, Source};
+use super::args::{Cli, Command, Global, SceneArgs, Style};
+use super::ending::{NOT_PRINTABLE, NOTHING, WELL, WRONG_INPUT, WRONG_USAGE, count, fail, say};
+use super::load::{Loaded, load};
+use super::messages::Messages;
 use super::plan::{self, Search};
 use super::progress::Reporter;
-use super::write::{self, Target};
-use super::{Cli, Command, Global, Quality, SceneArgs, Style};
+use super::write::{self, Destination};
+use super::{figures, files};
 use clap::CommandFactory;
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::scene::{self, Scene};
+use pillarforest::scene;
 use pillarforest::support::Support;
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-pub const WELL: u8 = 0;
-pub const WRONG_INPUT: u8 = 1;
-pub const WRONG_USAGE: u8 = 2;
-pub const NOT_PRINTABLE: u8 = 3;
-
-pub const NOTHING: &str = "Nothing was written.";
 const NOTHING_YET: &str = "Nothing was written; `--force` writes it all the same.";
 
 /// Runs the command; gives the exit code.
@@ -40,12 +33,12 @@ pub fn run(cli: &Cli) -> u8 {
             if *split {
                 scene.sets.push("output.split=true".into());
             }
-            let order = Order {
+            let errand = Errand {
                 goal: Goal::All,
                 output: output.as_deref(),
                 force: *force,
             };
-            make(&messages, &cli.global, &scene, &order)
+            make(&messages, &cli.global, &scene, &errand)
         }
         Command::Plan { scene, search } => {
             plan::run(&messages, &cli.global, scene, search, Search::Plan)
@@ -54,12 +47,12 @@ pub fn run(cli: &Cli) -> u8 {
             plan::run(&messages, &cli.global, scene, search, Search::Repair)
         }
         Command::View { scene, output } => {
-            let order = Order::of(Goal::Plan, output.as_deref());
-            make(&messages, &cli.global, scene, &order)
+            let errand = Errand::of(Goal::Plan, output.as_deref());
+            make(&messages, &cli.global, scene, &errand)
         }
         Command::Render { scene, output } => {
-            let order = Order::of(Goal::Pictures, output.as_deref());
-            make(&messages, &cli.global, scene, &order)
+            let errand = Errand::of(Goal::Pictures, output.as_deref());
+            make(&messages, &cli.global, scene, &errand)
         }
         Command::Inspect { files, json } => inspect(
             &messages,
@@ -72,23 +65,10 @@ pub fn run(cli: &Cli) -> u8 {
     }
 }
 
-/// Prints to standard output; a closed pipe is no error.
-pub fn say(text: &str) -> u8 {
-    let _ = std::io::stdout().write_all(text.as_bytes());
-    WELL
-}
-
 fn completions(shell: clap_complete::Shell) -> u8 {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "pillarforest", &mut script);
     say(&String::from_utf8_lossy(&script))
-}
-
-/// Prints the problems of a failed command.
-pub fn fail(messages: &Messages, list: &[Diagnostic], source: Option<&Source>, code: u8) -> u8 {
-    messages.print(list, source);
-    messages.closing(list, NOTHING);
-    code
 }
 
 fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
@@ -132,103 +112,6 @@ fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
     ))
 }
 
-/// A scene read for a command, with its text for messages.
-pub struct Loaded {
-    pub scene: Scene,
-    warnings: Vec<Diagnostic>,
-    pub source: Source,
-    /// The files it names that were read.
-    pub read: Vec<PathBuf>,
-}
-
-/// How a scene is read: [`scene::resolve`] or [`scene::resolve_to_mend`].
-pub type Resolve = fn(&str, scene::ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>>;
-
-/// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
-pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<Loaded> {
-    if let Some(jobs) = args.jobs {
-        // Before anything runs in parallel: a pool that exists already would keep its size.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.into())
-            .build_global();
-    }
-    let stop = |list: &[Diagnostic], source: Option<&Source>| {
-        fail(messages, list, source, WRONG_INPUT);
-        None
-    };
-    let mut text = match files::scene_text(&args.scene) {
-        Ok(text) => text,
-        Err(problem) => return stop(&[problem], None),
-    };
-    text = scene::at_quality(&text, quality(args.quality));
-    for assignment in &args.sets {
-        text = match scene::set(&text, assignment) {
-            Ok(text) => text,
-            Err(problem) => return stop(&[problem], None),
-        };
-    }
-    let changed = match (args.sets.is_empty(), args.quality) {
-        (false, _) => " (with --set)",
-        (true, Quality::Normal) => "",
-        (true, _) => " (with --quality)",
-    };
-    let source = Source {
-        path: format!("{}{changed}", args.scene.display()),
-        text,
-    };
-    let files = SceneFiles::of(&args.scene, libraries(&args.models), args.allow_outside);
-    match resolve(&source.text, &|name| files.read(name)) {
-        Err(problems) => stop(&problems, Some(&source)),
-        Ok(Warned { value, warnings }) => {
-            if messages.print(&warnings, Some(&source)) {
-                messages.closing(&warnings, NOTHING);
-                return None;
-            }
-            Some(Loaded {
-                scene: value,
-                warnings,
-                source,
-                read: files.into_read(),
-            })
-        }
-    }
-}
-
-/// The folders that the user named, or else the one that the surroundings name.
-pub fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
-    if !named.is_empty() {
-        return named.to_vec();
-    }
-    let variable = std::env::var_os("PILLARFOREST_MODELS").filter(|v| !v.is_empty());
-    variable.map(PathBuf::from).into_iter().collect()
-}
-
-fn quality(quality: Quality) -> scene::Quality {
-    match quality {
-        Quality::Draft => scene::Quality::Draft,
-        Quality::Normal => scene::Quality::Normal,
-        Quality::Final => scene::Quality::Final,
-    }
-}
-
-impl Loaded {
-    /// Tells, from now on, whether a search for pillars has had its time. The library has no clock.
-    pub fn time_is_up(&self) -> impl Fn() -> bool + Sync + use<> {
-        let brief = self.scene.brief.as_ref();
-        let seconds = brief.map_or(f64::INFINITY, |b| b.seconds);
-        let start = Instant::now();
-        move || start.elapsed().as_secs_f64() > seconds
-    }
-
-    /// Prints what ended the run; gives the exit code.
-    pub fn failed(&self, messages: &Messages, problems: &[Diagnostic]) -> u8 {
-        let all: Vec<Diagnostic> = problems.iter().chain(&self.warnings).cloned().collect();
-        messages.print(problems, Some(&self.source));
-        messages.closing(&all, NOTHING);
-        WRONG_INPUT
-    }
-}
-
 /// Runs the pipeline with progress. The error code has been explained to the user.
 fn compile(
     messages: &Messages,
@@ -251,11 +134,6 @@ fn compile(
         reporter.tell(messages.is_json());
     }
     Ok((build, reporter))
-}
-
-/// `1 view`, `2 views`.
-pub fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
@@ -292,14 +170,14 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
 }
 
 /// What is to be made, and where it goes.
-struct Order<'a> {
+struct Errand<'a> {
     goal: Goal,
     output: Option<&'a Path>,
     /// Write even what does not hold.
     force: bool,
 }
 
-impl<'a> Order<'a> {
+impl<'a> Errand<'a> {
     fn of(goal: Goal, output: Option<&'a Path>) -> Self {
         Self {
             goal,
@@ -309,25 +187,28 @@ impl<'a> Order<'a> {
     }
 }
 
-fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -> u8 {
-    let allowed: &[&str] = match order.goal {
+fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand) -> u8 {
+    let allowed: &[&str] = match errand.goal {
         Goal::Plan => &["svg", "png"],
         Goal::Pictures => &[],
         _ => &["3mf", "stl", "glb", "svg", "png", "json"],
     };
-    let target = match Target::new(order.output, &args.scene, allowed) {
-        Ok(target) => target,
+    let destination = match Destination::new(errand.output, &args.scene, allowed) {
+        Ok(destination) => destination,
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
     let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
-    if order.goal == Goal::All && loaded.scene.output.split && matches!(target, Target::File(_)) {
+    if errand.goal == Goal::All
+        && loaded.scene.output.split
+        && matches!(destination, Destination::File(_))
+    {
         let problem = Diagnostic::error("`--split` writes many files, and `-o` names only one")
             .help("give a directory: `-o out/pieces`");
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
-    let (build, reporter) = match compile(messages, global, args, &loaded, order.goal) {
+    let (build, reporter) = match compile(messages, global, args, &loaded, errand.goal) {
         Ok(done) => done,
         Err(code) => return code,
     };
@@ -338,17 +219,17 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
     };
     if code != WELL {
         messages.print(&build.failures, Some(&loaded.source));
-        if !order.force {
+        if !errand.force {
             messages.closing(&build.failures, NOTHING_YET);
             return code;
         }
         messages.closing(&build.failures, "Written all the same.");
     }
     let names = build.files.iter().map(|f| f.path.as_str());
-    if let Err(problem) = target.spares(names, &args.scene, &loaded.read) {
+    if let Err(problem) = destination.spares(names, &args.scene, &loaded.read) {
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
-    match target.write(&build.files) {
+    match destination.write(&build.files) {
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
@@ -364,7 +245,7 @@ fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
     for path in paths {
         let name = path.display().to_string();
         let found =
-            files::regular(path).and_then(|bytes| pillarforest::formats::inspect(&name, &bytes));
+            files::regular(path).and_then(|bytes| pillarforest::intake::inspect(&name, &bytes));
         match found {
             Err(problem) => {
                 messages.print(&[problem], None);

@@ -1,9 +1,10 @@
 //! `figures`: every case is a build of its own, by this program, so that its time and memory are those that anybody would measure.
 
-use super::commands::{NOT_PRINTABLE, WELL, WRONG_INPUT, WRONG_USAGE, fail, libraries, say};
+use super::args::{FigureArgs, Global};
+use super::ending::{NOT_PRINTABLE, WELL, WRONG_INPUT, WRONG_USAGE, fail, say};
+use super::load::libraries;
 use super::messages::Messages;
-use super::write::Target;
-use super::{FigureArgs, Global};
+use super::write::Destination;
 use pillarforest::diag::Diagnostic;
 use pillarforest::figures::{self, Done, FIGURES, Figure, Made, Order, Workshop};
 use pillarforest::scene::nearest;
@@ -30,9 +31,9 @@ pub fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8 {
         .help("run it where the program's sources lie, or say where: `--scenes DIR`");
         return fail(messages, &[problem], None, WRONG_INPUT);
     }
-    let target = match Target::new(Some(&args.output), Path::new("figures"), &[]) {
-        Ok(target @ Target::Directory(_)) => target,
-        Ok(Target::File(_)) => {
+    let destination = match Destination::new(Some(&args.output), Path::new("figures"), &[]) {
+        Ok(destination @ Destination::Directory(_)) => destination,
+        Ok(Destination::File(_)) => {
             let problem =
                 Diagnostic::error("figures are many files").help("give a directory: `-o DIR`");
             return fail(messages, &[problem], None, WRONG_USAGE);
@@ -41,7 +42,7 @@ pub fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8 {
     };
     let start = Instant::now();
     let done = made(&wanted, args, global);
-    match target.write(&figures::files(&done)) {
+    match destination.write(&figures::files(&done)) {
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
         Ok(page) => {
             done.iter().for_each(tell);

@@ -2,7 +2,7 @@
 //!
 //! Nothing of the user's text reaches the terminal with its control or direction characters alive.
 
-use super::{Global, Style, When};
+use super::args::{Global, Style, When};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use pillarforest::diag::{Diagnostic, Place, Severity, escaped};
 use std::fmt::Write as _;

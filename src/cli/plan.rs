@@ -1,11 +1,11 @@
 //! `plan` and `repair`: pillars found or mended, and written down.
 
-use super::commands::{self, Loaded, NOT_PRINTABLE, NOTHING, WELL, WRONG_INPUT, WRONG_USAGE};
-use super::commands::{count, fail, load, say};
+use super::args::{Global, SceneArgs, SearchArgs};
+use super::ending::{NOT_PRINTABLE, NOTHING, WRONG_INPUT, WRONG_USAGE, count, fail, say};
+use super::load::{Loaded, Resolve, load};
 use super::messages::Messages;
 use super::progress::Reporter;
-use super::write::Target;
-use super::{Global, SceneArgs, SearchArgs};
+use super::write::Destination;
 use pillarforest::compile::{self, LAYOUT};
 use pillarforest::diag::Diagnostic;
 use pillarforest::planner::{Change, Planned, Watch};
@@ -28,19 +28,20 @@ pub fn run(
     search: &SearchArgs,
     kind: Search,
 ) -> u8 {
-    let resolve: commands::Resolve = match kind {
+    let resolve: Resolve = match kind {
         Search::Plan => scene::resolve,
         Search::Repair => scene::resolve_to_mend,
     };
-    let target = Target::new(search.output.as_deref(), &args.scene, &["ron"]);
-    let target = match target.and_then(|t| t.spares([LAYOUT], &args.scene, &[]).map(|()| t)) {
-        Ok(target) => target,
-        Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
-    };
+    let destination = Destination::new(search.output.as_deref(), &args.scene, &["ron"]);
+    let destination =
+        match destination.and_then(|t| t.spares([LAYOUT], &args.scene, &[]).map(|()| t)) {
+            Ok(destination) => destination,
+            Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
+        };
     let Some(mut loaded) = load(messages, args, resolve) else {
         return WRONG_INPUT;
     };
-    if let Err(problem) = target.spares([LAYOUT], &args.scene, &loaded.read) {
+    if let Err(problem) = destination.spares([LAYOUT], &args.scene, &loaded.read) {
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
     wish(&mut loaded.scene, search);
@@ -62,29 +63,27 @@ pub fn run(
     }
     let files = compile::plan_outputs(&loaded.scene, &plan);
     let names = files.iter().map(|f| f.path.as_str());
-    if let Err(problem) = target.spares(names, &args.scene, &loaded.read) {
+    if let Err(problem) = destination.spares(names, &args.scene, &loaded.read) {
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
-    match target.write(&files) {
+    match destination.write(&files) {
         Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
             let pillars = count(plan.pillars.len(), "pillar");
             let views = count(laid.views.len(), "view");
-            let last = format!(
+            let done = format!(
                 "wrote {}  {pillars}, {views}  ({seconds:.1} s)\n",
                 path.display()
             );
-            if !global.quiet {
-                say(&changes(&loaded.scene, &laid, &plan));
-                say(&table(&loaded.scene, &plan));
+            if global.quiet {
+                return say(&done);
             }
-            say(&last);
-            if !global.quiet {
-                say(&usage(&args.scene, &path));
-                say(&note(&loaded.scene, &plan));
-            }
-            WELL
+            say(&changes(&loaded.scene, &laid, &plan));
+            say(&table(&loaded.scene, &plan));
+            say(&done);
+            say(&usage(&args.scene, &path));
+            say(&note(&loaded.scene, &plan))
         }
     }
 }

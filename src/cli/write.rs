@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Where a run writes to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Target {
+pub enum Destination {
     /// All files into a directory.
     Directory(PathBuf),
     /// The one file of a run with this path's ending, to this path.
@@ -21,11 +21,11 @@ pub enum Target {
 /// File endings that ask for one file rather than a directory.
 const ENDINGS: [&str; 7] = ["3mf", "stl", "glb", "svg", "png", "json", "ron"];
 
-impl Target {
+impl Destination {
     /// What `-o` means, by default `out/<scene>`; checked as far as it can be before any work.
     ///
     /// # Errors
-    /// The target cannot be written: a file in the way, an unknown ending, no such place.
+    /// The destination cannot be written: a file in the way, an unknown ending, no such place.
     pub fn new(output: Option<&Path>, scene: &Path, allowed: &[&str]) -> Result<Self, Diagnostic> {
         let stem = scene.file_stem().unwrap_or("scene".as_ref());
         // A scene called `...ron` has the stem `..`.
@@ -39,19 +39,19 @@ impl Target {
             .extension()
             .map(|e| e.to_string_lossy().to_lowercase())
             .unwrap_or_default();
-        let target = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {
+        let destination = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {
             if !allowed.contains(&ending.as_str()) {
                 return Err(fail(format!(
                     "this command makes no .{ending} file; it makes {}",
                     allowed.join(", ")
                 )));
             }
-            Target::File(path.clone())
+            Self::File(path.clone())
         } else {
             if path.exists() && !path.is_dir() {
                 return Err(fail("it is a file, not a directory".into()));
             }
-            Target::Directory(path.clone())
+            Self::Directory(path.clone())
         };
         let ancestor = path
             .ancestors()
@@ -61,7 +61,7 @@ impl Target {
             Some(a) if !a.as_os_str().is_empty() && !a.is_dir() => {
                 Err(fail(format!("\"{}\" is a file", a.display())))
             }
-            _ => Ok(target),
+            _ => Ok(destination),
         }
     }
 
@@ -76,8 +76,8 @@ impl Target {
         read: &[PathBuf],
     ) -> Result<(), Diagnostic> {
         let outputs: Vec<PathBuf> = match self {
-            Target::Directory(directory) => names.into_iter().map(|n| directory.join(n)).collect(),
-            Target::File(path) => vec![path.clone()],
+            Self::Directory(directory) => names.into_iter().map(|n| directory.join(n)).collect(),
+            Self::File(path) => vec![path.clone()],
         };
         for output in outputs {
             let what = if same(&output, scene) {
@@ -102,7 +102,7 @@ impl Target {
     /// What the system said. No file is torn even then.
     pub fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
         match self {
-            Target::Directory(directory) => {
+            Self::Directory(directory) => {
                 let fail = |e: std::io::Error| {
                     Diagnostic::error(format!("cannot write to \"{}\": {e}", directory.display()))
                 };
@@ -112,7 +112,7 @@ impl Target {
                     .first()
                     .map_or(directory.clone(), |f| directory.join(&f.path)))
             }
-            Target::File(path) => {
+            Self::File(path) => {
                 let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
                 let matches = |f: &&OutputFile| Path::new(&f.path).extension() == Some(&ending);
                 let file = files.iter().find(matches).ok_or_else(|| {

@@ -1,13 +1,13 @@
-//! Colours of vertices as files have them: some from 0 to 1, some from 0 to 255, some for a part of the vertices only.
+//! Colours of vertices as text files have them: some from 0 to 1, some from 0 to 255, some for a part of the vertices only.
 
 use crate::diag::{Diagnostic, Place};
 use crate::formats::text::coordinate;
 
-/// Gathers the colours of a text file's vertices.
+/// Tells whether the colours of a file's vertices are of use.
 #[derive(Default)]
 pub struct Colours {
-    found: Vec<[f64; 3]>,
-    /// Vertices without one.
+    /// Vertices with one.
+    with: usize,
     without: usize,
     /// The first one that is none: its line, and why.
     bad: Option<(usize, String)>,
@@ -15,32 +15,27 @@ pub struct Colours {
 
 impl Colours {
     /// The colour of the next vertex, on this line.
-    pub fn add_words(&mut self, line: usize, words: [&[u8]; 3]) {
-        let mut colour = [0.0; 3];
-        for (k, word) in words.iter().enumerate() {
-            let value = coordinate(word).and_then(in_range);
-            match value {
-                Ok(value) => colour[k] = value,
-                Err(why) => {
-                    self.bad.get_or_insert((line, why));
-                }
+    pub fn check(&mut self, line: usize, words: [&[u8]; 3]) {
+        for word in words {
+            if let Err(why) = coordinate(word).and_then(in_range) {
+                self.bad.get_or_insert((line, why));
             }
         }
-        self.found.push(colour);
+        self.with += 1;
     }
 
     /// The next vertex has none.
-    pub fn add_none(&mut self) {
+    pub fn miss(&mut self) {
         self.without += 1;
     }
 
-    /// All colours from 0 to 1; none if the file has none.
+    /// Whether every vertex has one.
     ///
     /// # Errors
     /// A warning that tells why the file's colours are of no use.
-    pub fn finish(&self, file: &str) -> Result<Vec<[f64; 4]>, Diagnostic> {
-        if self.found.is_empty() {
-            return Ok(Vec::new());
+    pub fn finish(&self, file: &str) -> Result<bool, Diagnostic> {
+        if self.with == 0 {
+            return Ok(false);
         }
         if let Some((line, why)) = &self.bad {
             let message = format!("a vertex has a colour that is {why}: colours are not used");
@@ -51,16 +46,21 @@ impl Colours {
             }));
         }
         if self.without > 0 {
-            let count = self.found.len();
+            let count = self.with;
             let all = count + self.without;
             let message = format!("{count} of {all} vertices have a colour: colours are not used");
             return Err(Diagnostic::warning(message).at(Place::File(file.to_owned())));
         }
-        let most = self.found.iter().flatten().fold(0.0, |m: f64, c| m.max(*c));
-        let one = if most > 1.0 { 255.0 } else { 1.0 };
-        let opaque = |c: &[f64; 3]| [c[0] / one, c[1] / one, c[2] / one, 1.0];
-        Ok(self.found.iter().map(opaque).collect())
+        Ok(true)
     }
+}
+
+/// Red, green and blue of all vertices, one after the other, as opaque colours from 0 to 1.
+pub fn scaled(read: &[f64]) -> Vec<[f64; 4]> {
+    let most = read.iter().fold(0.0, |m: f64, c| m.max(*c));
+    let one = if most > 1.0 { 255.0 } else { 1.0 };
+    let opaque = |c: &[f64]| [c[0] / one, c[1] / one, c[2] / one, 1.0];
+    read.chunks_exact(3).map(opaque).collect()
 }
 
 fn in_range(value: f64) -> Result<f64, String> {

@@ -2,7 +2,7 @@
 //!
 //! Scene axes map as `(x, y, z) -> (x, z, -y) / 1000`.
 
-use crate::formats::Part;
+use crate::formats::part::Part;
 use crate::mesh::TriMesh;
 use glam::{DMat3, DQuat, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};

@@ -4,9 +4,9 @@
 //! Never panics, never allocates by a number that only stands in a header, never follows a path in a file.
 
 use crate::diag::{Diagnostic, Place, Warned};
+use crate::formats::body::NamedMesh;
 use crate::formats::{read_3mf, read_obj, read_ply, read_stl};
-use crate::mesh::gate::{Gated, gate_traced, unit_suspicion};
-use crate::mesh::{Attributes, Original, TriMesh};
+use crate::mesh::{Attributes, TriMesh};
 
 /// Formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,29 +41,12 @@ impl MeshFormat {
     }
 }
 
-/// One body of a file, in place, millimetres if the format says so.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedMesh {
-    /// Empty where the format has no names.
-    pub name: String,
-    pub mesh: TriMesh,
-    /// Of `mesh`; 3MF and STL have none that are read.
-    pub attributes: Attributes,
-}
-
-/// A model fit to be looked at, and what its file has.
-#[derive(Clone, Debug)]
-pub struct Model {
-    pub mesh: TriMesh,
-    pub original: Original,
-}
-
 /// The mesh of a file as it stands there; 3MF objects are put together, each with vertices of its own.
 ///
 /// # Errors
 /// One message with the file and, as far as there is one, the line or byte.
 pub fn read_mesh(file_name: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
-    let Warned { value, warnings } = read_whole(file_name, bytes)?;
+    let Warned { value, warnings } = read_as_one(file_name, bytes)?;
     Ok(Warned {
         value: value.mesh,
         warnings,
@@ -71,7 +54,10 @@ pub fn read_mesh(file_name: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagn
 }
 
 /// All bodies of a file as one. A file of several has no attributes.
-fn read_whole(file_name: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
+///
+/// # Errors
+/// As [`read_mesh`].
+pub fn read_as_one(file_name: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
     let Warned {
         mut value,
         warnings,
@@ -82,18 +68,18 @@ fn read_whole(file_name: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagno
             warnings,
         });
     }
-    let mut whole = TriMesh::default();
+    let mut all = TriMesh::default();
     for body in &value {
-        if whole.vertices.len() + body.mesh.vertices.len() > u32::MAX as usize {
+        if all.vertices.len() + body.mesh.vertices.len() > u32::MAX as usize {
             let message = "the bodies of the file have more than 4294967295 vertices together";
             return Err(Diagnostic::error(message).at(Place::File(file_name.to_owned())));
         }
-        whole.append(&body.mesh);
+        all.append(&body.mesh);
     }
     Ok(Warned {
         value: NamedMesh {
             name: String::new(),
-            mesh: whole,
+            mesh: all,
             attributes: Attributes::default(),
         },
         warnings,
@@ -126,57 +112,6 @@ pub fn read_bodies(file_name: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh
         MeshFormat::Ply => read_ply::read(file_name, bytes).map(single),
         MeshFormat::ThreeMf => read_3mf::read(file_name, bytes),
     }
-}
-
-/// A model for a view: read and made fit to be looked at. With `at_own_size` (nothing else says how large it is to
-/// be), sizes that suggest another unit are warned of.
-///
-/// # Errors
-/// As [`read_mesh`], and models without faces, extent or thickness.
-pub fn load_model(
-    file_name: &str,
-    bytes: &[u8],
-    at_own_size: bool,
-) -> Result<Warned<TriMesh>, Diagnostic> {
-    let Warned { value, warnings } = load_original(file_name, bytes, at_own_size)?;
-    Ok(Warned {
-        value: value.mesh,
-        warnings,
-    })
-}
-
-/// As [`load_model`], with what the file has besides.
-///
-/// # Errors
-/// As [`load_model`].
-pub fn load_original(
-    file_name: &str,
-    bytes: &[u8],
-    at_own_size: bool,
-) -> Result<Warned<Model>, Diagnostic> {
-    let read = read_whole(file_name, bytes)?;
-    let mut warnings = read.warnings;
-    let NamedMesh {
-        mesh: as_read,
-        attributes,
-        ..
-    } = read.value;
-    let gated = gate_traced(file_name, as_read.clone())?;
-    warnings.extend(gated.warnings);
-    let Gated { mesh, vertex_of } = gated.value;
-    if at_own_size {
-        warnings.extend(unit_suspicion(file_name, &mesh));
-    }
-    let original = Original {
-        mesh: as_read,
-        attributes,
-        vertex_of,
-        lowered_from: None,
-    };
-    Ok(Warned {
-        value: Model { mesh, original },
-        warnings,
-    })
 }
 
 /// The format by the extension, if the content can be that.

@@ -4,7 +4,7 @@
 //! neither form a cycle nor multiply without end.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::read::NamedMesh;
+use crate::formats::body::NamedMesh;
 use crate::formats::text::excerpt;
 use crate::formats::xml_3mf::{self, Instance, ModelPart, XmlObject};
 use crate::mesh::Attributes;
@@ -27,9 +27,9 @@ const MAX_COMPONENT_DEPTH: usize = 32;
 /// # Errors
 /// A broken container, no model, forbidden XML, or objects that cannot be put together.
 pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, Diagnostic> {
-    let whole = |why: String| Diagnostic::error(why).at(Place::File(file.to_owned()));
-    let mut container = Container::open(bytes).map_err(whole)?;
-    let root = container.model_part().map_err(whole)?;
+    let of_file = |why: String| Diagnostic::error(why).at(Place::File(file.to_owned()));
+    let mut container = Container::open(bytes).map_err(of_file)?;
+    let root = container.model_part().map_err(of_file)?;
     let mut assembly = Assembly {
         file,
         container,
@@ -57,7 +57,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, Diagnost
         assembly.add(root, item, DMat4::IDENTITY, "", 0)?;
     }
     if assembly.bodies.iter().all(|b| b.mesh.faces.is_empty()) {
-        return Err(whole("the file has no triangles".to_owned()));
+        return Err(of_file("the file has no triangles".to_owned()));
     }
     Ok(Warned {
         value: assembly.bodies,

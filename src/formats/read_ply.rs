@@ -5,8 +5,8 @@
 //! numbers of vertices are kept where they can be used.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::columns::Columns;
-use crate::formats::read::NamedMesh;
+use crate::formats::body::NamedMesh;
+use crate::formats::channels::Channels;
 use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
 use crate::mesh::polygon::triangulate;
 use crate::mesh::{TriMesh, Uvs};
@@ -58,7 +58,7 @@ enum Encoding {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Scalar {
+enum NumberType {
     I8,
     U8,
     I16,
@@ -69,7 +69,7 @@ enum Scalar {
     F64,
 }
 
-impl Scalar {
+impl NumberType {
     fn named(word: &str) -> Option<Self> {
         Some(match word {
             "char" | "int8" => Self::I8,
@@ -120,9 +120,9 @@ impl Scalar {
 #[derive(Debug)]
 struct Property {
     name: String,
-    scalar: Scalar,
+    scalar: NumberType,
     /// The type of its length, for a list.
-    length: Option<Scalar>,
+    length: Option<NumberType>,
 }
 
 #[derive(Debug)]
@@ -149,21 +149,9 @@ impl Header {
         loop {
             let rest = &bytes[at..];
             number += 1;
-            let too_long = number > MAX_HEADER_LINES || at > MAX_HEADER_BYTES;
-            let end = rest
-                .iter()
-                .take(MAX_HEADER_BYTES)
-                .position(|b| matches!(b, b'\n' | b'\r'));
-            let (Some(end), false) = (end, too_long) else {
-                let why = if too_long {
-                    format!("the header has more than {MAX_HEADER_LINES} lines")
-                } else {
-                    "the header has no `end_header`".to_owned()
-                };
-                return Err(at_line(file, number, rest, why));
-            };
-            let line = &rest[..end];
-            at += end + 1 + usize::from(rest[end..].starts_with(b"\r\n"));
+            let (line, step) =
+                header_line(rest, number, at).map_err(|why| at_line(file, number, rest, why))?;
+            at += step;
             let text = String::from_utf8_lossy(line);
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
             let fail = |why: String| at_line(file, number, line, why);
@@ -191,12 +179,8 @@ impl Header {
             }
         }
         let Some(encoding) = encoding else {
-            return Err(at_line(
-                file,
-                number,
-                b"",
-                "the header has no `format` line",
-            ));
+            let message = "the header has no `format` line";
+            return Err(at_line(file, number, b"", message));
         };
         Ok(Self {
             encoding,
@@ -205,6 +189,19 @@ impl Header {
             lines: number,
         })
     }
+}
+
+/// The first line of `rest`, and how many bytes it takes with its end; `number` and `at` are its place in the file.
+fn header_line(rest: &[u8], number: usize, at: usize) -> Result<(&[u8], usize), String> {
+    let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
+    if number > MAX_HEADER_LINES || at > MAX_HEADER_BYTES {
+        return Err(format!("the header has more than {MAX_HEADER_LINES} lines"));
+    }
+    let Some(end) = rest.iter().take(MAX_HEADER_BYTES).position(is_end) else {
+        return Err("the header has no `end_header`".to_owned());
+    };
+    let both = usize::from(rest[end..].starts_with(b"\r\n"));
+    Ok((&rest[..end], end + 1 + both))
 }
 
 fn encoding_named(name: &str) -> Result<Encoding, String> {
@@ -237,13 +234,13 @@ fn element(name: &str, count: &str, line: usize) -> Result<Element, String> {
 
 fn property(words: &[&str]) -> Result<Property, String> {
     let scalar = |word: &str| {
-        Scalar::named(word)
+        NumberType::named(word)
             .ok_or_else(|| format!("unknown property type `{}`", excerpt(word.as_bytes())))
     };
     match words {
         ["list", length, item, name] => {
             let length = scalar(length)?;
-            if matches!(length, Scalar::F32 | Scalar::F64) {
+            if matches!(length, NumberType::F32 | NumberType::F64) {
                 return Err("a list whose length is not a whole number".to_owned());
             }
             Ok(Property {
@@ -265,8 +262,8 @@ fn property(words: &[&str]) -> Result<Property, String> {
 #[derive(Clone, Copy, PartialEq)]
 enum Role {
     Axis(usize),
-    /// A column of [`Columns`].
-    Column(usize),
+    /// A place in [`Channels`].
+    Channel(usize),
     Polygon,
     /// Texture points of the polygon in the same row.
     CornerUvs,
@@ -274,16 +271,16 @@ enum Role {
     Skip,
 }
 
-fn role(element: &Element, property: &Property, columns: &mut Columns) -> Role {
+fn role(element: &Element, property: &Property, channels: &mut Channels) -> Role {
     let indices = matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
     match (element.name.as_str(), property.length.is_some()) {
         ("vertex", false) => match property.name.as_str() {
             "x" => Role::Axis(0),
             "y" => Role::Axis(1),
             "z" => Role::Axis(2),
-            name => columns
+            name => channels
                 .place(name, property.scalar.one())
-                .map_or(Role::Skip, Role::Column),
+                .map_or(Role::Skip, Role::Channel),
         },
         ("face", true) if indices => Role::Polygon,
         ("face", true) if property.name == "texcoord" => Role::CornerUvs,
@@ -306,7 +303,7 @@ impl Body<'_> {
         let roles: Vec<Role> = element
             .properties
             .iter()
-            .map(|p| role(element, p, &mut builder.columns))
+            .map(|p| role(element, p, &mut builder.channels))
             .collect();
         if element.name == "vertex" && (0..3).any(|axis| !roles.contains(&Role::Axis(axis))) {
             let message = "the element `vertex` lacks a property x, y or z";
@@ -332,7 +329,7 @@ impl Body<'_> {
                 let at = (start, row, element);
                 match role {
                     Role::Axis(axis) => point[*axis] = self.axis(list[0], at)?,
-                    Role::Column(column) => builder.columns.push(*column, list[0]),
+                    Role::Channel(channel) => builder.channels.push(*channel, list[0]),
                     Role::CornerUvs => builder.corner_uvs(&list),
                     Role::Polygon => builder.polygon(&list).map_err(|why| self.fail(at, why))?,
                     Role::Strip => builder.strip(&list).map_err(|why| self.fail(at, why))?,
@@ -379,7 +376,7 @@ impl Body<'_> {
     /// The length of a list, known to fit into what is left of the file.
     fn length(
         &mut self,
-        length: Scalar,
+        length: NumberType,
         property: &Property,
         element: &Element,
         row: u64,
@@ -403,7 +400,12 @@ impl Body<'_> {
         Ok(count as usize)
     }
 
-    fn scalar(&mut self, scalar: Scalar, element: &Element, row: u64) -> Result<f64, Diagnostic> {
+    fn scalar(
+        &mut self,
+        scalar: NumberType,
+        element: &Element,
+        row: u64,
+    ) -> Result<f64, Diagnostic> {
         let start = self.at;
         if self.encoding == Encoding::Text {
             let Some(word) = self.word() else {
@@ -452,8 +454,8 @@ impl Body<'_> {
     }
 }
 
-fn number(word: &[u8], scalar: Scalar) -> Result<f64, String> {
-    if matches!(scalar, Scalar::F32 | Scalar::F64) {
+fn number(word: &[u8], scalar: NumberType) -> Result<f64, String> {
+    if matches!(scalar, NumberType::F32 | NumberType::F64) {
         return finite(word).map_err(|why| format!("a value that is {why}"));
     }
     let text = std::str::from_utf8(word).unwrap_or_default();
@@ -470,7 +472,7 @@ struct Builder {
     /// Corners of all polygons, and how many each has: vertices may come after the faces.
     corners: Vec<u32>,
     arities: Vec<u32>,
-    columns: Columns,
+    channels: Channels,
     /// Texture points of face corners, and how many of them every row of faces has.
     uvs: Vec<DVec2>,
     uv_counts: Vec<u32>,
@@ -547,7 +549,7 @@ impl Builder {
             faces: faces.collect(),
             vertices: self.vertices,
         };
-        let (mut attributes, mut warnings) = self.columns.finish(file, count, &mesh.faces);
+        let (mut attributes, mut warnings) = self.channels.finish(file, count, &mesh.faces);
         let sound = self.uvs.iter().all(|p| p.is_finite());
         if sound && self.uv_counts == self.arities {
             attributes.uvs = Some(Uvs {

@@ -1,8 +1,9 @@
 //! Optimised surfaces as PLY (binary, with everything that is known of their vertices) and as OBJ (geometry, texture points and
 //! colours). Not for printing: such a surface may be open, torn or cross itself.
 
-use crate::mesh::{NO_UV, Scalar};
+use crate::mesh::{NO_UV, Uvs, VertexScalar};
 use crate::surface::Surface;
+use glam::DVec2;
 use std::fmt::Write;
 
 /// Names of our own properties; an input's scalar of the same name is written as `input_...`.
@@ -38,6 +39,13 @@ pub fn write_surface_ply(surface: &Surface) -> Vec<u8> {
     }
     header.push_str("end_header\n");
     let mut bytes = header.into_bytes();
+    push_vertices(&mut bytes, surface, channels, at_vertices.as_deref());
+    push_faces(&mut bytes, &surface.mesh.faces, at_corners);
+    bytes
+}
+
+fn push_vertices(bytes: &mut Vec<u8>, surface: &Surface, channels: usize, uvs: Option<&[DVec2]>) {
+    let attributes = &surface.attributes;
     for (v, reach) in surface.reach.iter().enumerate() {
         let mut double = |value: f64| bytes.extend_from_slice(&value.to_le_bytes());
         surface.mesh.vertices[v]
@@ -57,31 +65,36 @@ pub fn write_surface_ply(surface: &Surface) -> Vec<u8> {
         if let Some(colour) = attributes.colours.get(v) {
             bytes.extend(colour[..channels].iter().map(|c| (c * 255.0).round() as u8));
         }
-        if let Some(points) = &at_vertices {
-            points[v]
-                .to_array()
-                .iter()
-                .for_each(|c| bytes.extend_from_slice(&(*c as f32).to_le_bytes()));
+        if let Some(points) = uvs {
+            push_point(bytes, points[v]);
         }
         for scalar in &attributes.scalars {
             bytes.extend_from_slice(&scalar.values[v].to_le_bytes());
         }
     }
-    for (f, face) in surface.mesh.faces.iter().enumerate() {
+}
+
+fn push_faces(bytes: &mut Vec<u8>, faces: &[[u32; 3]], uvs: Option<&Uvs>) {
+    for (f, face) in faces.iter().enumerate() {
         bytes.push(3);
         face.iter()
             .for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
-        let Some(uvs) = at_corners else { continue };
+        let Some(uvs) = uvs else { continue };
         bytes.push(6);
         for uv in uvs.corners[f] {
-            let point = uvs.points.get(uv as usize).copied().unwrap_or_default();
-            point
-                .to_array()
-                .iter()
-                .for_each(|c| bytes.extend_from_slice(&(*c as f32).to_le_bytes()));
+            push_point(
+                bytes,
+                uvs.points.get(uv as usize).copied().unwrap_or_default(),
+            );
         }
     }
-    bytes
+}
+
+/// A texture point in 32 bits.
+fn push_point(bytes: &mut Vec<u8>, point: DVec2) {
+    for c in point.to_array() {
+        bytes.extend_from_slice(&(c as f32).to_le_bytes());
+    }
 }
 
 /// The header down to the last property of vertices.
@@ -107,7 +120,7 @@ fn head(surface: &Surface, channels: usize, uvs: bool) -> String {
         property("float", "t");
     }
     let mut names: Vec<String> = Vec::new();
-    for Scalar { name, .. } in &surface.attributes.scalars {
+    for VertexScalar { name, .. } in &surface.attributes.scalars {
         let mut name = plain(name);
         while OWN.contains(&name.as_str()) || names.contains(&name) {
             name.insert_str(0, "input_");

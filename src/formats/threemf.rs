@@ -4,8 +4,8 @@
 //! build transforms, one `m:colorgroup` of one colour per colour, referred to by each object's `pid`/`pindex`
 //! (slicers of the Bambu and Orca family match the literal prefix `m` and read nothing else).
 
-use crate::formats::Part;
 use crate::formats::markup::escaped;
+use crate::formats::part::Part;
 use crate::mesh::TriMesh;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};

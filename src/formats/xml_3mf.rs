@@ -84,7 +84,7 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
             }
         }
         b"object" => part.objects.push(XmlObject {
-            id: whole(e, b"id")?,
+            id: index(e, b"id")?,
             name: attribute(e, b"name")?.unwrap_or_default(),
             mesh: TriMesh::default(),
             components: Vec::new(),
@@ -97,7 +97,7 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
         }
         b"triangle" => {
             if let Some(object) = part.objects.last_mut() {
-                let face = [whole(e, b"v1")?, whole(e, b"v2")?, whole(e, b"v3")?];
+                let face = [index(e, b"v1")?, index(e, b"v2")?, index(e, b"v3")?];
                 object.mesh.faces.push(face);
             }
         }
@@ -136,7 +136,7 @@ fn close(part: &ModelPart, name: &[u8]) -> Result<(), String> {
 
 fn instance(e: &BytesStart) -> Result<Instance, String> {
     Ok(Instance {
-        object: whole(e, b"objectid")?,
+        object: index(e, b"objectid")?,
         part: attribute(e, b"path")?,
         transform: match attribute(e, b"transform")? {
             Some(text) => transform(&text)?,
@@ -204,7 +204,7 @@ fn number(e: &BytesStart, name: &[u8]) -> Result<f64, String> {
         .map_err(|why| format!("a coordinate that is {why}"))
 }
 
-fn whole(e: &BytesStart, name: &[u8]) -> Result<u32, String> {
+fn index(e: &BytesStart, name: &[u8]) -> Result<u32, String> {
     let text = wanted(e, name)?;
     text.trim_ascii()
         .parse()

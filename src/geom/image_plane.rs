@@ -1,6 +1,7 @@
 //! The central projection of one eye, or the parallel one of an eye at infinity.
 
-use super::{orient, solid_angle};
+use super::angles::solid_angle;
+use super::planar::orient;
 use glam::{DVec2, DVec3};
 
 /// How far away eyes at infinity stand, millimetres: a central projection from there is a parallel one for all that prints. Rays 50 mm

@@ -5,7 +5,7 @@
 //! whoever writes the model again finds every corner's texture point and whoever needs a value at a vertex of the model gets
 //! one. Placing moves vertices only, so attributes do not know of it.
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec2;
 
 /// Marks a face corner without a texture point.
@@ -21,7 +21,7 @@ pub struct Uvs {
 
 /// A number for every vertex under a name of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scalar {
+pub struct VertexScalar {
     /// Without blanks.
     pub name: String,
     /// Finite. Index: vertex.
@@ -35,7 +35,7 @@ pub struct Attributes {
     pub colours: Vec<[f64; 4]>,
     pub uvs: Option<Uvs>,
     /// In the file's order; names differ.
-    pub scalars: Vec<Scalar>,
+    pub scalars: Vec<VertexScalar>,
 }
 
 /// Names of the colour's channels as attributes.

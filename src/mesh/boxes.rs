@@ -3,7 +3,7 @@
 //! Takes closed boxes, gives for a query box every box that overlaps or touches it. Nothing is padded or rounded.
 //! (The trees of the `bvh` module are f32 and made for rays.)
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
 /// A closed box: smallest and largest corner.

@@ -4,10 +4,10 @@
 //! blocking defects bounds a printable body: closed, consistently wound, every edge with two faces, every vertex with
 //! one fan, no two faces in each other's way, material inside.
 
-use crate::mesh::TriMesh;
 use crate::mesh::intersect::{projection_axis, self_intersections};
 use crate::mesh::shells::{Shell, shells};
 use crate::mesh::topology::{Edges, HalfEdge, bowtie_vertices};
+use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::duplicate_groups;
 use glam::DVec3;
 use std::fmt;

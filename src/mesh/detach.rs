@@ -4,8 +4,8 @@
 //! encloses material; the vertices are split into one copy for each fan of faces that hang together, and the copies are
 //! drawn a little into their own material, so that a real gap is left.
 
-use crate::mesh::TriMesh;
 use crate::mesh::topology::{DisjointSets, Edges, HalfEdge};
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
 /// How far touching surfaces are drawn back: hundreds of f32 steps, a thousandth of a printed line.

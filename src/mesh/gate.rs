@@ -2,16 +2,15 @@
 //!
 //! Takes a mesh as read from anybody's file; gives one whose equal vertices are joined, without repeated-index or
 //! duplicate faces and stray vertices, wound consistently and outwards wherever that has a meaning. Open, touching and
-//! self-intersecting surfaces stay as they are: an eye can look at them. Everything done or left is said in one
-//! warning. Coordinates do not change, except that cracks narrower than [`CRACK`] are closed; vertices and faces are numbered
+//! self-intersecting surfaces stay as they are: an eye can look at them. What was done is counted, what is left is
+//! listed. Coordinates do not change, except that cracks narrower than [`CRACK`] are closed; vertices and faces are numbered
 //! by place, so that nothing later depends on the file's order.
 
-use crate::diag::{Diagnostic, Place, Warned};
-use crate::mesh::TriMesh;
-use crate::mesh::defects::{DefectKind, check};
+use crate::mesh::defects::{Defect, DefectKind, check};
 use crate::mesh::order::numbered;
 use crate::mesh::shells::shells;
 use crate::mesh::topology::{Edges, HalfEdge};
+use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{
     Welded, drop_collapsed, drop_duplicates, keep_referenced, weld, weld_some,
 };
@@ -25,69 +24,46 @@ pub const NEEDLE: f64 = 1e-6;
 /// Below this the mesh has no size at all, millimetres.
 const NOTHING: f64 = 1e-12;
 
-/// A mesh fit to be looked at, and where the vertices of the mesh that was read went; `None`: dropped.
+/// A mesh fit to be looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gated {
     pub mesh: TriMesh,
+    /// Where the vertices of the mesh that was read went; `None`: dropped.
     pub vertex_of: Vec<Option<u32>>,
+    pub corrections: Corrections,
+    /// What keeps the mesh from being a sound closed surface.
+    pub defects: Vec<Defect>,
+    /// Faces thinner than [`NEEDLE`], though not without area (that is a defect).
+    pub needles: usize,
 }
 
-/// # Errors
-/// As [`gate_traced`].
-pub fn gate(file: &str, mesh: TriMesh) -> Result<Warned<TriMesh>, Diagnostic> {
-    let Warned { value, warnings } = gate_traced(file, mesh)?;
-    Ok(Warned {
-        value: value.mesh,
-        warnings,
-    })
+/// How often what was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Corrections {
+    /// Vertices dropped that no face uses.
+    pub stray: usize,
+    /// Vertices joined across cracks.
+    pub cracks: usize,
+    /// Faces dropped that repeat a vertex.
+    pub repeated: usize,
+    /// Faces dropped that are there twice.
+    pub duplicates: usize,
+    /// Faces turned to match their neighbours.
+    pub turned: usize,
+    /// Closed surfaces turned outwards.
+    pub outwards: usize,
 }
 
-/// # Errors
-/// A mesh without faces, without extent, or closed but without thickness.
-pub fn gate_traced(file: &str, mesh: TriMesh) -> Result<Warned<Gated>, Diagnostic> {
-    let place = || Place::File(file.to_owned());
-    let mut notes = Notes::default();
-    let gated = clean(mesh, &mut notes).map_err(|why| Diagnostic::error(why).at(place()))?;
-    let mesh = &gated.mesh;
-    let left = leftovers(mesh);
-    let notes = notes.0;
-    let mut warnings = Vec::new();
-    if !notes.is_empty() || !left.is_empty() {
-        let mut message = String::new();
-        if !notes.is_empty() {
-            message = format!("repaired on loading: {}", notes.join(", "));
-        }
-        if !left.is_empty() {
-            let joint = if notes.is_empty() { "" } else { "; " };
-            message = format!(
-                "{message}{joint}not a sound closed surface: {}",
-                left.join("; ")
-            );
-        }
-        let mut warning = Diagnostic::warning(message).at(place());
-        if !left.is_empty() {
-            warning =
-                warning.help("a view can show it all the same; it could not be printed as it is");
-        }
-        warnings.push(warning);
-    }
-    Ok(Warned {
-        value: gated,
-        warnings,
-    })
-}
-
-/// What was done, in the words of a message.
-#[derive(Default)]
-struct Notes(Vec<String>);
-
-impl Notes {
-    fn add(&mut self, verb: &str, count: usize, [one, many]: [&str; 2]) {
-        if count > 0 {
-            let noun = if count == 1 { one } else { many };
-            self.0.push(format!("{verb} {count} {noun}"));
-        }
-    }
+/// Why a mesh cannot be looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    NoFaces,
+    NotFinite,
+    /// All points are in one place.
+    NoExtent,
+    /// A body pressed flat, of this size in millimetres.
+    NoThickness(DVec3),
+    AllDegenerate,
 }
 
 /// Follows vertices through one more renumbering.
@@ -97,7 +73,9 @@ fn follow(vertex_of: &mut [Option<u32>], next: impl Fn(u32) -> Option<u32>) {
     }
 }
 
-fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<Gated, String> {
+/// # Errors
+/// A mesh without faces, without extent, or closed but without thickness.
+pub fn gate(mut mesh: TriMesh) -> Result<Gated, Refusal> {
     let mut vertex_of = keep_referenced(&mut mesh);
     let stray = vertex_of.iter().filter(|v| v.is_none()).count();
     let size = extent(&mesh)?;
@@ -119,43 +97,45 @@ fn clean(mut mesh: TriMesh, notes: &mut Notes) -> Result<Gated, String> {
     // A flat sheet can be looked at; a body pressed flat is a mistake. What is left of one is folded onto itself.
     let flat = size.min_element() <= NOTHING * size.max_element();
     if flat && (closed_as_read || repeated + duplicates > 0) {
-        let DVec3 { x, y, z } = size;
-        return Err(format!("the model has no thickness: {x} x {y} x {z} mm"));
+        return Err(Refusal::NoThickness(size));
     }
     if mesh.faces.is_empty() {
-        return Err("all faces of the model are degenerate".to_owned());
+        return Err(Refusal::AllDegenerate);
     }
     let turned = orient(&mut mesh);
     let outwards = turn_outwards(&mut mesh);
     let kept = keep_referenced(&mut mesh);
     follow(&mut vertex_of, |v| kept[v as usize]);
-    let unused = ["vertex that no face uses", "vertices that no face uses"];
-    notes.add("dropped", stray, unused);
-    let cracks = ["vertex across a crack", "vertices across cracks"];
-    notes.add("joined", joined, cracks);
-    let repeats = ["face that repeats a vertex", "faces that repeat a vertex"];
-    notes.add("dropped", repeated, repeats);
-    notes.add("dropped", duplicates, ["duplicate face", "duplicate faces"]);
-    let matched = [
-        "face to match its neighbours",
-        "faces to match their neighbours",
-    ];
-    notes.add("turned", turned, matched);
-    let surfaces = ["closed surface outwards", "closed surfaces outwards"];
-    notes.add("turned", outwards, surfaces);
-    Ok(Gated { mesh, vertex_of })
+    let mut defects = check(&mesh);
+    defects.retain(|d| d.kind != DefectKind::UnreferencedVertex);
+    let faces = 0..mesh.faces.len();
+    let needles = faces.filter(|f| is_needle(&mesh, *f)).count();
+    Ok(Gated {
+        mesh,
+        vertex_of,
+        corrections: Corrections {
+            stray,
+            cracks: joined,
+            repeated,
+            duplicates,
+            turned,
+            outwards,
+        },
+        defects,
+        needles,
+    })
 }
 
-fn extent(mesh: &TriMesh) -> Result<DVec3, String> {
+fn extent(mesh: &TriMesh) -> Result<DVec3, Refusal> {
     if mesh.faces.is_empty() {
-        return Err("the model has no faces".to_owned());
+        return Err(Refusal::NoFaces);
     }
     if mesh.vertices.iter().any(|v| !v.is_finite()) {
-        return Err("the model has a coordinate that is not a finite number".to_owned());
+        return Err(Refusal::NotFinite);
     }
     let (lo, hi) = mesh.bounds().unwrap_or_default();
     if (hi - lo).max_element() < NOTHING {
-        return Err("the model has no extent: all its points are in one place".to_owned());
+        return Err(Refusal::NoExtent);
     }
     Ok(hi - lo)
 }
@@ -245,23 +225,6 @@ fn turn_outwards(mesh: &mut TriMesh) -> usize {
     wrong.iter().filter(|w| **w != flip_all).count()
 }
 
-/// What is still wrong, in words.
-fn leftovers(mesh: &TriMesh) -> Vec<String> {
-    let mut left: Vec<String> = check(mesh)
-        .iter()
-        .filter(|d| d.kind != DefectKind::UnreferencedVertex)
-        .map(ToString::to_string)
-        .collect();
-    let needles = (0..mesh.faces.len())
-        .filter(|f| is_needle(mesh, *f))
-        .count();
-    if needles > 0 {
-        let noun = if needles == 1 { "face" } else { "faces" };
-        left.push(format!("{needles} needle-thin {noun}"));
-    }
-    left
-}
-
 /// Thinner than [`NEEDLE`], though not without area (that is a defect of its own).
 fn is_needle(mesh: &TriMesh, face: usize) -> bool {
     let [a, b, c] = mesh.corners(face);
@@ -271,56 +234,4 @@ fn is_needle(mesh: &TriMesh, face: usize) -> bool {
         .max((a - c).length_squared());
     let height = mesh.area_vector(face).length() / longest;
     height > 0.0 && height < NEEDLE
-}
-
-/// Longest side of a model, millimetres: up to which it is dust below the steps of printable files, up to which people
-/// usually saved in metres (a hand is 0.2 of them), up to which in inches, and from which nothing prints it.
-const DUST: f64 = 0.002;
-const METRES: f64 = 0.5;
-const INCHES: f64 = 2.0;
-const HUGE: f64 = 1e5;
-/// Files with f32 coordinates keep 1e-7 of them: this many lengths from the origin a thousandth of the model is lost.
-const FAR: f64 = 1e4;
-
-/// A warning if the size of a model, taken as millimetres, suggests another unit, or if it lies so far from the origin
-/// that f32 files cannot hold it. For models used at the size they are saved in.
-pub fn unit_suspicion(file: &str, mesh: &TriMesh) -> Option<Diagnostic> {
-    let (lo, hi) = mesh.bounds()?;
-    let longest = (hi - lo).max_element();
-    let far = lo.abs().max(hi.abs()).max_element();
-    let place = Place::File(file.to_owned());
-    let side = tidy(longest);
-    let message = match longest {
-        l if l < DUST => format!(
-            "the model is {side} mm long, less than a printable file can hold: in which unit was it saved?"
-        ),
-        l if l < METRES => format!(
-            "the model is {side} mm long: saved in metres? That would be {} mm",
-            tidy(l * 1000.0)
-        ),
-        l if l < INCHES => format!(
-            "the model is {side} mm long: saved in inches? That would be {} mm",
-            tidy(l * 25.4)
-        ),
-        l if l > HUGE => {
-            format!("the model is {side} mm long: in which unit was it saved?")
-        }
-        l if far > FAR * l => format!(
-            "the model is {side} mm long but lies {} mm from the origin: files with 32-bit numbers keep steps of {} mm there",
-            tidy(far),
-            tidy(far * f64::from(f32::EPSILON))
-        ),
-        _ => return None,
-    };
-    Some(Diagnostic::warning(message).at(place))
-}
-
-/// Three significant digits or so, without an exponent where people would not write one.
-fn tidy(x: f64) -> String {
-    if (1e-3..1e7).contains(&x.abs()) {
-        let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 6) as usize;
-        format!("{x:.digits$}")
-    } else {
-        format!("{x:.1e}")
-    }
 }

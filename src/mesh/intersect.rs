@@ -5,8 +5,8 @@
 //! a vertex that lies exactly on a foreign face counts and one a rounding error above it does not.
 //! Faces of zero area and faces with the same three vertices are left out: they are other defects.
 
-use crate::mesh::TriMesh;
 use crate::mesh::boxes::{Box3, BoxTree};
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use rayon::prelude::*;
 use robust::{Coord, Coord3D};

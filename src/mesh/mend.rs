@@ -5,10 +5,10 @@
 //! their area to the face across their long edge; surfaces that only touch are drawn apart. Promises not to open it and to move nothing by more than the last of
 //! [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
 
-use crate::mesh::TriMesh;
 use crate::mesh::detach::detach;
 use crate::mesh::intersect::self_intersections;
 use crate::mesh::separate::separate;
+use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{cancel_folds, drop_collapsed, drop_unreferenced, snap_to_f32};
 use glam::DVec3;
 use std::collections::VecDeque;

@@ -12,99 +12,19 @@ pub mod polygon;
 pub mod separate;
 pub mod shells;
 pub mod simplify;
+pub mod size;
 pub mod solid;
 pub mod topology;
+mod tri_mesh;
 pub mod weld;
 
-pub use attributes::{Attributes, NO_UV, Original, Scalar, Uvs};
+pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar};
 pub use defects::{Defect, DefectKind, check};
-pub use gate::gate;
 pub use intersect::self_intersections;
 pub use mend::{Mended, mend};
 pub use shells::without_cavities;
 pub use simplify::{Simplified, simplified};
 pub use solid::Solid;
 pub use topology::{DisjointSets, Edges, HalfEdge, face_components, face_neighbours, vertex_parts};
+pub use tri_mesh::TriMesh;
 pub use weld::{snap_to_f32, weld};
-
-use glam::{DMat4, DVec3};
-
-/// An indexed triangle mesh. Faces turn counter-clockwise as seen from outside.
-///
-/// Promises only that indices are in range and coordinates finite (constructors of meshes check that);
-/// not that it is closed, oriented or free of degenerate faces: ask for its defects.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TriMesh {
-    /// Positions in millimetres.
-    pub vertices: Vec<DVec3>,
-    /// Vertex indices, three a face.
-    pub faces: Vec<[u32; 3]>,
-}
-
-impl TriMesh {
-    pub fn corners(&self, face: usize) -> [DVec3; 3] {
-        self.faces[face].map(|v| self.vertices[v as usize])
-    }
-
-    /// Twice the area times the unit normal.
-    pub fn area_vector(&self, face: usize) -> DVec3 {
-        let [a, b, c] = self.corners(face);
-        (b - a).cross(c - a)
-    }
-
-    /// Unit normal; zero for a degenerate face.
-    pub fn normal(&self, face: usize) -> DVec3 {
-        self.area_vector(face).normalize_or_zero()
-    }
-
-    /// Signed volume in cubic millimetres: meaningful for closed meshes. Keeps its digits far from the origin.
-    pub fn volume(&self) -> f64 {
-        let origin = self.vertices.first().copied().unwrap_or_default();
-        let tetrahedron = |f| {
-            let [a, b, c] = self.corners(f).map(|v| v - origin);
-            a.dot(b.cross(c))
-        };
-        (0..self.faces.len()).map(tetrahedron).sum::<f64>() / 6.0
-    }
-
-    /// Surface area in square millimetres.
-    pub fn area(&self) -> f64 {
-        (0..self.faces.len())
-            .map(|f| self.area_vector(f).length() / 2.0)
-            .sum()
-    }
-
-    /// Smallest and largest corner over all vertices; `None` if there are none.
-    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let first = *self.vertices.first()?;
-        Some(
-            self.vertices
-                .iter()
-                .fold((first, first), |(lo, hi), v| (lo.min(*v), hi.max(*v))),
-        )
-    }
-
-    /// The mesh moved by an affine matrix; turned inside out again if the matrix mirrors.
-    pub fn transformed(&self, matrix: DMat4) -> Self {
-        let vertices = self
-            .vertices
-            .iter()
-            .map(|v| matrix.transform_point3(*v))
-            .collect();
-        let mirrored = matrix.determinant() < 0.0;
-        let faces = self
-            .faces
-            .iter()
-            .map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] })
-            .collect();
-        Self { vertices, faces }
-    }
-
-    /// Adds the faces of `other` with vertices of their own.
-    pub fn append(&mut self, other: &TriMesh) {
-        let offset = self.vertices.len() as u32;
-        self.vertices.extend_from_slice(&other.vertices);
-        self.faces
-            .extend(other.faces.iter().map(|f| f.map(|v| v + offset)));
-    }
-}

@@ -1,6 +1,6 @@
 //! One numbering for every mesh: results must not depend on the order in which a file lists its vertices and faces.
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
 /// The same surface with vertices rising by coordinates (x, then y, then z), every face beginning with its lowest vertex, and

@@ -1,28 +1,48 @@
-//! Polygons with many corners, as they come in OBJ and PLY files, cut into triangles.
+//! Polygons with many corners cut into triangles: those of OBJ and PLY files, and the outlines of a scene's supports.
 //!
 //! Takes any closed chain of points in space, flat or not, convex or not; gives `n - 2` triangles for `n` corners,
 //! wound as the polygon. Corners at the same place and crossing outlines give useless triangles, never a failure.
+//! Ears are clipped; the two entrances differ only in which ear comes next.
 
 use crate::mesh::intersect::turn2;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Work beyond which a concave polygon is cut as if it were convex instead of clipped (corners times reflex corners): a second or so.
 const MAX_WORK: usize = 200_000_000;
 
-/// Triangles of corner numbers `0 .. points.len()`.
+/// Which ear is clipped next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// The first at or after the corner before the last one: every corner is looked at some few times.
+    Onward,
+    /// The lowest corner that is one: fans where an outline is convex, and a search from the start for every triangle.
+    Lowest,
+}
+
+/// Triangles of corner numbers `0 .. points.len()`, in any time that a file of any size can be given.
 pub fn triangulate(points: &[DVec3]) -> Vec<[u32; 3]> {
     let n = points.len();
     if n < 3 {
         return Vec::new();
     }
     let outline = Outline::new(points);
-    let reflex: Vec<usize> = (0..n)
-        .filter(|&k| outline.turn((k + n - 1) % n, k, (k + 1) % n) <= 0.0)
-        .collect();
+    let reflex = outline.reflex();
     if n == 3 || reflex.is_empty() || n.saturating_mul(reflex.len()) > MAX_WORK {
         return halve(n as u32);
     }
-    clip_ears(&outline, reflex)
+    clip_ears(&outline, reflex, Next::Onward)
+}
+
+/// Triangles of a simple polygon in the ground plane that turns counter-clockwise, of at most some thousand corners. The caps of a
+/// scene's prisms are cut this way: no point of theirs is far from the others, and printed files keep their bytes.
+pub fn triangulate_outline(polygon: &[DVec2]) -> Vec<[u32; 3]> {
+    let points: Vec<DVec3> = polygon.iter().map(|p| p.extend(0.0)).collect();
+    let outline = Outline {
+        points: &points,
+        axis: 2,
+        sign: 1.0,
+    };
+    clip_ears(&outline, outline.reflex(), Next::Lowest)
 }
 
 /// Triangles of a convex polygon by halving its outline: a fan of a large one would be all needles in one corner.
@@ -63,6 +83,13 @@ impl<'a> Outline<'a> {
         }
     }
 
+    /// Corners at which it does not turn left.
+    fn reflex(&self) -> Vec<usize> {
+        let n = self.points.len();
+        let reflex = |k: &usize| self.turn((k + n - 1) % n, *k, (k + 1) % n) <= 0.0;
+        (0..n).filter(reflex).collect()
+    }
+
     /// Positive for a left turn.
     fn turn(&self, a: usize, b: usize, c: usize) -> f64 {
         self.sign * turn2(self.axis, self.points[a], self.points[b], self.points[c])
@@ -74,12 +101,13 @@ impl<'a> Outline<'a> {
 }
 
 /// Ear clipping on a ring list: only reflex corners can lie in an ear.
-fn clip_ears(outline: &Outline, mut reflex: Vec<usize>) -> Vec<[u32; 3]> {
+fn clip_ears(outline: &Outline, mut reflex: Vec<usize>, rule: Next) -> Vec<[u32; 3]> {
     let n = outline.points.len();
     let mut next: Vec<usize> = (0..n).map(|k| (k + 1) % n).collect();
     let mut previous: Vec<usize> = (0..n).map(|k| (k + n - 1) % n).collect();
     let mut triangles = Vec::with_capacity(n - 2);
     let (mut corner, mut left, mut tried) = (0, n, 0);
+    let mut lowest = 0;
     while left > 3 {
         let ear = [previous[corner], corner, next[corner]];
         // After a full round without an ear the outline crosses itself: cut anyway, to end.
@@ -90,13 +118,23 @@ fn clip_ears(outline: &Outline, mut reflex: Vec<usize>) -> Vec<[u32; 3]> {
             left -= 1;
             tried = 0;
             reflex.retain(|&k| k != corner && outline.turn(previous[k], k, next[k]) <= 0.0);
-            corner = ear[0];
+            if corner == lowest {
+                lowest = ear[2];
+            }
+            corner = match rule {
+                Next::Onward => ear[0],
+                Next::Lowest => lowest,
+            };
         } else {
             tried += 1;
             corner = next[corner];
         }
     }
-    triangles.push([previous[corner], corner, next[corner]].map(|k| k as u32));
+    let first = match rule {
+        Next::Onward => previous[corner],
+        Next::Lowest => lowest,
+    };
+    triangles.push([first, next[first], next[next[first]]].map(|k| k as u32));
     triangles
 }
 

@@ -3,9 +3,9 @@
 //! After rounding a thin flap may lie a few micrometres through the face below it. Vertices of the flap are moved along the
 //! other face's normal to the side where most of it is. Works on the neighbourhood of the trouble only.
 
-use crate::mesh::TriMesh;
 use crate::mesh::boxes::Box3;
 use crate::mesh::intersect::self_intersections;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
 /// Distances that cutting faces are given, millimetres, in turn: from ten f32 steps at 100 mm to a hundredth of a printed line.

@@ -3,10 +3,10 @@
 //! Takes a closed, consistently wound mesh without self-intersections; gives for each shell its volume and in how many
 //! others it lies, exactly (ray parity by signs of determinants, no tolerances).
 
-use crate::mesh::TriMesh;
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::mesh::intersect::{turn2, turn3};
 use crate::mesh::topology::face_components;
+use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
 use rayon::prelude::*;

@@ -8,7 +8,8 @@
 //! models tried.
 
 use crate::mesh::topology::HalfEdge;
-use crate::mesh::{DisjointSets, Edges, TriMesh};
+use crate::mesh::topology::{DisjointSets, Edges};
+use crate::mesh::tri_mesh::TriMesh;
 use alum::decimate::{Decimater, HasDecimation};
 use alum::{Adaptor, Error, HH, Handle, HasIterators, PolyMeshT, VH};
 use glam::{DMat3, DVec3};

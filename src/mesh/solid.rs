@@ -3,9 +3,9 @@
 //! After this stage there are no holes, no edges of three or four faces, no touching or intersecting faces, no faces
 //! without area, no inverted shells, and no coordinates that change when written as f32.
 
-use crate::mesh::TriMesh;
 use crate::mesh::defects::{Defect, check};
 use crate::mesh::shells::shells;
+use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{drop_unreferenced, rounded_to_f32, weld};
 use glam::DVec3;
 

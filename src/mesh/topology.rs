@@ -3,7 +3,7 @@
 //! Takes any indexed mesh whose indices are in range; gives answers that depend on face order only (sorted arrays,
 //! no hash order). Knows nothing of positions: weld first if equal positions are to count as one vertex.
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use rayon::slice::ParallelSliceMut;
 
 /// One side of a face: the edge from corner `k` to corner `k + 1`.

@@ -2,7 +2,7 @@
 //!
 //! Every function says what it changed; none changes the order of what it keeps.
 
-use crate::mesh::TriMesh;
+use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;

@@ -7,7 +7,7 @@
 
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
-use crate::render::lights::{Body, Meet, PAPER, Term};
+use crate::render::caster::{Caster, Meet, PAPER, Term};
 use glam::DVec3;
 
 /// Widths of the model from its left edge to the flash. At 0 it could stand among the supports; at 3 light falls off by less
@@ -51,7 +51,7 @@ impl Flash {
     }
 
     /// What it does at a place of a body. Brighter than paper is as bright as paper, as on a photograph.
-    pub fn light(&self, body: &Body, meet: &Meet) -> Term {
+    pub fn light(&self, body: &Caster, meet: &Meet) -> Term {
         let way = self.place - meet.place;
         let Some(l) = way.try_normalize() else {
             return Term {

@@ -3,11 +3,11 @@
 use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
 use crate::diagram::lettering::{Face, width};
 use crate::diagram::raster;
-use crate::render::lights::{
-    DARK, FLASH_LAMP, LightLikeness, Lit, SIDE, SKY_LAMP, SPAN, SUNS_DEG, Stage,
-};
+use crate::render::caster::{DARK, SPAN};
+use crate::render::inks::{QUIET, TEXT};
+use crate::render::light_figures::LightLikeness;
 use crate::render::shading::{self, Rgb};
-use crate::render::{QUIET, TEXT};
+use crate::render::stage::{FLASH_LAMP, Lit, SIDE, SKY_LAMP, SUNS_DEG, Stage};
 use crate::view::View;
 use glam::DVec2;
 use rayon::prelude::*;

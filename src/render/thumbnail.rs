@@ -4,6 +4,7 @@ use crate::bvh::Bvh;
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
+use crate::render::caster::{Caster, Meet};
 use crate::render::shading::{self, Rgb, smoothed};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -94,17 +95,9 @@ fn sun(plane: &ImagePlane) -> DVec3 {
         .normalize()
 }
 
-/// A place on the forest.
-struct Meet {
-    face: usize,
-    place: DVec3,
-    normal: DVec3,
-}
-
 /// The forest and the camera.
 struct Studio<'a> {
-    forest: &'a TriMesh,
-    bvh: &'a Bvh,
+    forest: Caster<'a>,
     colours: Option<&'a [[u8; 3]]>,
     plane: ImagePlane,
     /// Of the picture, on the image plane.
@@ -123,8 +116,7 @@ impl<'a> Studio<'a> {
             ImagePlane::looking_at(centre + DISTANCE * radius * STANDPOINT.normalize(), centre);
         let (middle, half) = frame(forest, &plane);
         Self {
-            forest,
-            bvh,
+            forest: Caster::new(forest, bvh),
             colours,
             plane,
             middle,
@@ -139,18 +131,14 @@ impl<'a> Studio<'a> {
         let q = self.middle
             + DVec2::new(2.0 * x / self.size - 1.0, 1.0 - 2.0 * y / self.size) * self.half;
         let direction = self.plane.direction(q).normalize();
-        let hit = self.bvh.first_hit(self.plane.eye, direction)?;
-        let normal = self.forest.normal(hit.face);
-        Some(Meet {
-            face: hit.face,
-            place: self.plane.eye + hit.t * direction + 1e-4 * self.radius * normal,
-            normal,
-        })
+        let mut meet = self.forest.meet(self.plane.eye, direction)?;
+        meet.place += 1e-4 * self.radius * meet.normal;
+        Some(meet)
     }
 
     fn shade(&self, meet: &Meet, sun: DVec3, open: f64) -> Rgb {
         let facing = meet.normal.dot(sun).max(0.0);
-        let lit = facing > 0.0 && !self.bvh.blocked(meet.place, sun, f64::INFINITY);
+        let lit = facing > 0.0 && !self.forest.bvh.blocked(meet.place, sun, f64::INFINITY);
         // The sky lights what looks up more than what looks down.
         let sky = open * (0.40 + 0.08 * meet.normal.z);
         let colour = self
@@ -175,6 +163,7 @@ impl<'a> Studio<'a> {
             let direction =
                 radius * turn.cos() * tangent + radius * turn.sin() * bitangent + up * meet.normal;
             !self
+                .forest
                 .bvh
                 .blocked(meet.place, direction, PROBE_REACH * self.radius)
         });

@@ -11,8 +11,9 @@ use crate::diagram::lettering::Face;
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
+use crate::render::camera::MARGIN;
+use crate::render::inks::{QUIET, TEXT};
 use crate::render::shading::{self, Lights, Rgb, smoothed};
-use crate::render::{QUIET, TEXT};
 use crate::view::View;
 use glam::{DQuat, DVec2, DVec3};
 use rayon::prelude::*;
@@ -24,9 +25,6 @@ const LAST_DEG: f64 = 90.0;
 /// An eye that would pass nearer to the solid on its way around is moved outward to this many radii of the solid about the axis: nearer,
 /// a picture in perspective shows little of it.
 const NEAREST: f64 = 1.5;
-
-/// The same air around the solid as in the view pictures.
-const MARGIN: f64 = 1.05;
 
 /// Widest strip, pixels.
 const WIDEST: f64 = 8000.0;
@@ -107,8 +105,8 @@ impl Turntable {
         let aspect = (self.hi.x - self.lo.x) / (self.hi.y - self.lo.y);
         let high = f64::from(size_px.clamp(16, 2048));
         let scale = (WIDEST / (PICTURES as f64 * high * aspect)).min(1.0);
-        let whole = |x: f64| (x * scale).round().max(8.0) as usize;
-        (whole(high * aspect), whole(high))
+        let pixels = |x: f64| (x * scale).round().max(8.0) as usize;
+        (pixels(high * aspect), pixels(high))
     }
 }
 

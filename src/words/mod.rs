@@ -7,3 +7,4 @@ pub mod contest;
 pub mod iterated;
 pub mod sight;
 pub mod solids;
+pub mod gate;

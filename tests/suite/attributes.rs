@@ -3,7 +3,7 @@
 use crate::shapes::ball;
 use glam::{DVec2, DVec3};
 use pillarforest::diag::Warned;
-use pillarforest::formats::{Model, load_original};
+use pillarforest::intake::{Admitted, load_original};
 use pillarforest::mesh::NO_UV;
 
 /// A strip of two quads, one without texture points at its end.
@@ -11,12 +11,12 @@ const OBJ: &str = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
 v 2 0 1 1 0 0\nv 1 0 0 0 1 0\nv 0 0 0 0 0 1\nv 0 0 1 0.5 0.25 0.125\nv 2 0 0 1 1 1\n\
 f 3/1 2/2/9 4/-1\nvn 0 1 0\nf 2//1 5 1 4\n";
 
-fn loaded(name: &str, bytes: &[u8]) -> Warned<Model> {
+fn loaded(name: &str, bytes: &[u8]) -> Warned<Admitted> {
     load_original(name, bytes, false).expect("a mesh")
 }
 
 /// All warnings in one text.
-fn said(read: &Warned<Model>) -> String {
+fn said(read: &Warned<Admitted>) -> String {
     let messages: Vec<&str> = read.warnings.iter().map(|w| w.message.as_str()).collect();
     messages.join("\n")
 }
@@ -188,7 +188,7 @@ fn soup() -> (String, Vec<u32>) {
 fn attributes_follow_vertices_through_repairs() {
     let (text, came_from) = soup();
     let read = loaded("soup.ply", text.as_bytes());
-    let Model { mesh, original } = &read.value;
+    let Admitted { mesh, original } = &read.value;
     assert!(said(&read).contains("joined"), "{}", said(&read));
     assert_eq!(original.vertex_of.len(), came_from.len() + 1);
     assert_eq!(original.vertex_of.last(), Some(&None), "the stray one");

@@ -4,7 +4,7 @@ use super::shapes::{CUBE_FACES, ball};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::load_model;
+use pillarforest::intake::load_model;
 use pillarforest::mesh::{Edges, Simplified, Solid, TriMesh, simplified};
 use pillarforest::scene::{self, Quality, Scene, at_quality};
 

@@ -3,9 +3,8 @@
 use crate::shapes::{BLUE, ORANGE, ball, prism, ring};
 use glam::{DQuat, DVec2, DVec3};
 use gltf_json::validation::Validate;
-use pillarforest::formats::read::{read_bodies, read_mesh};
 use pillarforest::formats::{
-    Camera, Lens, Metadata, Part, ZipTime, write_3mf, write_glb, write_stl,
+    Camera, Lens, Metadata, Part, ZipTime, read_bodies, read_mesh, write_3mf, write_glb, write_stl,
 };
 use pillarforest::mesh::Solid;
 use quick_xml::events::{BytesStart, Event};

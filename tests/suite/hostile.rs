@@ -2,7 +2,7 @@
 
 use crate::shapes::CUBE_FACES;
 use pillarforest::diag::{Diagnostic, Place, Warned};
-use pillarforest::formats::{inspect, load_model};
+use pillarforest::intake::{inspect, load_model};
 use pillarforest::mesh::TriMesh;
 use std::fmt::Write as _;
 use std::path::Path;

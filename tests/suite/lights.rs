@@ -8,8 +8,9 @@ use pillarforest::compile::{Goal, run};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::ImagePlane;
 use pillarforest::mesh::TriMesh;
+use pillarforest::render::caster::{Caster, Meet, sky, sun};
 use pillarforest::render::flash::Flash;
-use pillarforest::render::lights::{Body, Meet, SKY, SUNS_DEG, sky, sun};
+use pillarforest::render::stage::{SKY, SUNS_DEG};
 use pillarforest::render::{LightLikeness, light_pictures};
 use pillarforest::scene;
 use pillarforest::view::View;
@@ -48,13 +49,13 @@ fn both(a: &TriMesh, b: &TriMesh) -> TriMesh {
 
 /// The floor's place below a point.
 fn below(mesh: &TriMesh, bvh: &Bvh, at: DVec3) -> Meet {
-    let meet = Body::new(mesh, bvh).meet(at.with_z(1e-2), -DVec3::Z);
+    let meet = Caster::new(mesh, bvh).meet(at.with_z(1e-2), -DVec3::Z);
     meet.expect("a floor")
 }
 
 fn overcast(mesh: &TriMesh, meet: &Meet) -> f64 {
     let bvh = Bvh::new(mesh);
-    let body = Body::new(mesh, &bvh);
+    let body = Caster::new(mesh, &bvh);
     body.skylight(meet, &sky(SKY)).shade()
 }
 
@@ -82,7 +83,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle_to_the_sun() {
         let (a, b) = normal.any_orthonormal_pair();
         let plate = rectangle(DVec3::new(3.0, 5.0, 7.0), 20.0 * a, 20.0 * b);
         let bvh = Bvh::new(&plate);
-        let body = Body::new(&plate, &bvh);
+        let body = Caster::new(&plate, &bvh);
         let eye = DVec3::new(3.0, 5.0, 7.0) + 9.0 * normal;
         let meet = body.meet(eye, -normal).expect("a plate");
         let wanted = degrees.to_radians().cos().max(0.0);
@@ -105,7 +106,7 @@ fn a_wall_throws_a_shadow_as_long_as_its_height_over_the_tangent() {
             let bvh = Bvh::new(&mesh);
             let lit = |distance: f64| {
                 let meet = below(&mesh, &bvh, -distance * level);
-                Body::new(&mesh, &bvh).sunlight(&meet, l).shade()
+                Caster::new(&mesh, &bvh).sunlight(&meet, l).shade()
             };
             let length = HEIGHT / elevation.to_radians().tan();
             for share in [0.01, 0.5, 0.999] {
@@ -129,7 +130,7 @@ fn shadows_keep_to_the_wall_to_within_a_hair() {
         let mesh = both(&floor(), &wall(DVec3::ZERO, DVec3::X, 50.0, high));
         let bvh = Bvh::new(&mesh);
         let meet = below(&mesh, &bvh, DVec3::new(-high / 2.0, 0.0, 0.0));
-        let open = Body::new(&mesh, &bvh).sunlight(&meet, l).open;
+        let open = Caster::new(&mesh, &bvh).sunlight(&meet, l).open;
         assert_eq!(open == 0.0, high > 0.01, "{high}");
     }
 }
@@ -138,6 +139,7 @@ fn shadows_keep_to_the_wall_to_within_a_hair() {
 fn a_free_floor_gets_all_of_the_sky_and_a_free_wall_half() {
     let lone = |mesh: TriMesh| {
         let meet = Meet {
+            face: 0,
             place: (mesh.vertices[0] + mesh.vertices[2]) / 2.0,
             normal: mesh.normal(0),
         };
@@ -340,7 +342,7 @@ fn the_flash_stands_beside_the_model() {
 fn a_far_flash_is_a_sun() {
     let mesh = both(&floor(), &ball(DVec3::new(1.0, 2.0, 9.0), 5.0, 16));
     let bvh = Bvh::new(&mesh);
-    let body = Body::new(&mesh, &bvh);
+    let body = Caster::new(&mesh, &bvh);
     let l = DVec3::new(0.5, -0.3, 0.6).normalize();
     let flash = Flash {
         place: 1e8 * l,
@@ -368,7 +370,7 @@ fn a_flash_lights_a_ball_by_formula() {
     const AWAY: f64 = 15.0;
     let mesh = ball(DVec3::ZERO, RADIUS, 200);
     let bvh = Bvh::new(&mesh);
-    let body = Body::new(&mesh, &bvh);
+    let body = Caster::new(&mesh, &bvh);
     let towards = DVec3::new(0.3, -0.8, 0.4).normalize();
     let flash = Flash {
         place: AWAY * towards,
@@ -399,7 +401,7 @@ fn the_flash_of_a_mirrored_scene_on_the_other_side_gives_the_mirrored_light() {
         faces: mesh.faces.iter().map(|f| [f[0], f[2], f[1]]).collect(),
     };
     let (bvh, twin_bvh) = (Bvh::new(&mesh), Bvh::new(&twin));
-    let (body, twin_body) = (Body::new(&mesh, &bvh), Body::new(&twin, &twin_bvh));
+    let (body, twin_body) = (Caster::new(&mesh, &bvh), Caster::new(&twin, &twin_bvh));
     let plane = ImagePlane::looking_at(EYE, MIDDLE);
     let flash = Flash::beside(&plane, &mesh, true);
     let other = Flash::beside(&plane, &twin, false);

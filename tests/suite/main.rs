@@ -19,6 +19,7 @@ mod guarantees;
 mod hostile;
 mod lights;
 mod meshes;
+mod names;
 mod numerics;
 mod orthographic;
 mod planner;

@@ -1,13 +1,15 @@
 //! What our mesh checks find, on small meshes that each have one property.
 
 use crate::shapes::CUBE_FACES;
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat4, DQuat, DVec2, DVec3};
 use pillarforest::mesh::gate::gate;
+use pillarforest::mesh::polygon::triangulate_outline;
 use pillarforest::mesh::separate::separate;
 use pillarforest::mesh::{
     Defect, DefectKind, Solid, TriMesh, check, face_components, face_neighbours,
     self_intersections, snap_to_f32, vertex_parts, weld, without_cavities,
 };
+use pillarforest::words::gate::repaired;
 
 /// A box of the given corner and size, 8 vertices, 12 faces.
 fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
@@ -323,15 +325,15 @@ fn welding_keeps_to_its_tolerance() {
 #[test]
 fn the_gate_repairs_and_says_so() {
     let told = |mesh: TriMesh, words: &str| {
-        let gated = gate("m.obj", mesh).unwrap();
-        let said: Vec<&str> = gated.warnings.iter().map(|w| w.message.as_str()).collect();
+        let gated = gate(mesh).unwrap();
+        let said = repaired("m.obj", &gated).map(|w| w.message);
         assert!(
-            said.join(" ").contains(words),
+            said.as_ref().is_some_and(|s| s.contains(words)),
             "`{words}` wanted in {said:?}"
         );
-        gated.value
+        gated.mesh
     };
-    assert!(gate("m.obj", cube()).unwrap().warnings.is_empty());
+    assert_eq!(repaired("m.obj", &gate(cube()).unwrap()), None);
     assert_eq!(
         told(
             turned_inside_out(cube()),
@@ -353,20 +355,14 @@ fn the_gate_repairs_and_says_so() {
         .volume(),
         7000.0
     );
-    assert_eq!(
-        gate("m.obj", hollow.clone()).unwrap().value.volume(),
-        7000.0
-    );
+    assert_eq!(gate(hollow.clone()).unwrap().mesh.volume(), 7000.0);
     let beside = both(cube(), &turned_inside_out(cuboid([30.0; 3], [2.0; 3])));
     assert_eq!(
         told(beside, "turned 1 closed surface outwards").volume(),
         8008.0
     );
     let far = cuboid([1e7; 3], [20.0; 3]);
-    assert_eq!(
-        gate("m.obj", far.clone()).unwrap().value.volume(),
-        far.volume()
-    );
+    assert_eq!(gate(far.clone()).unwrap().mesh.volume(), far.volume());
     let mut cracked = TriMesh::default();
     for face in 0..12 {
         let shift = DVec3::splat(1e-6 * f64::from(face % 3));
@@ -436,4 +432,23 @@ fn what_only_touches_a_body_is_not_taken_for_a_part_of_it() {
     let kept = without_cavities(mesh.clone());
     assert_eq!(kept.faces.len(), mesh.faces.len());
     assert!((kept.volume() - 1.25).abs() < 1e-12);
+}
+
+/// Printed files hold the caps of prisms: which ear comes next shows in their bytes.
+#[test]
+fn outlines_are_cut_at_their_lowest_ear() {
+    let pentagon = crate::shapes::ring(DVec2::ZERO, 1.0, 5);
+    let fan = [[4, 0, 1], [4, 1, 2], [2, 3, 4]];
+    assert_eq!(triangulate_outline(&pentagon), fan);
+    // A step with a flat corner: corner 0 is an ear, then only those that leave the notch alone.
+    let step = [[0, 0], [2, 0], [4, 0], [4, 1], [2, 1], [2, 3], [0, 3]];
+    let step = step.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+    let triangles = triangulate_outline(&step);
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|k| step[k as usize]);
+        (b - a).perp_dot(c - a) / 2.0
+    };
+    assert!(triangles.iter().all(|t| area(t) > 0.0), "{triangles:?}");
+    assert_eq!(triangles.iter().map(area).sum::<f64>(), 8.0);
+    assert_eq!(triangles[0], [6, 0, 1]);
 }

@@ -8,7 +8,7 @@ use crate::shapes::{CUBE_FACES, ball, ring, wavy};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build, Goal};
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::read::{NamedMesh, read_bodies};
+use pillarforest::formats::{NamedMesh, read_bodies};
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::Energy;
 use pillarforest::scene::{self, Scene};

@@ -6,7 +6,8 @@ use crate::golden;
 use glam::DVec3;
 use pillarforest::compile::{Build, Goal, OutputFile, run};
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::{inspect, read_mesh};
+use pillarforest::formats::read_mesh;
+use pillarforest::intake::{Inspection, inspect};
 use pillarforest::mesh::Solid;
 use pillarforest::scene::{self, Scene};
 use rayon::prelude::*;
@@ -223,9 +224,7 @@ fn printable_files_pass_our_own_inspection_when_read_back() {
         for body in &objects.bodies {
             assert!(body.printable, "{name}: {}: {:?}", body.name, body.defects);
         }
-        let volume = |o: &pillarforest::formats::Inspection| -> f64 {
-            o.bodies.iter().filter_map(|b| b.volume_mm3).sum()
-        };
+        let volume = |o: &Inspection| -> f64 { o.bodies.iter().filter_map(|b| b.volume_mm3).sum() };
         // Reliefs are bedded in their pillars by a hair: the objects together are hardly more than the whole.
         let (whole, parts) = (volume(&stl), volume(&objects));
         assert!(

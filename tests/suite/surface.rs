@@ -4,9 +4,9 @@ use crate::shapes::{Setting, ball};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{Goal, run};
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::{Model, load_original};
 use pillarforest::geom::ImagePlane;
 use pillarforest::groups::groups;
+use pillarforest::intake::{Admitted, load_original};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::{Original, TriMesh};
 use pillarforest::mimic::{CurvatureOptions, Depths, Energy, FaceWeight, NormalOptions, depths};
@@ -130,7 +130,7 @@ fn input() -> (TriMesh, Original) {
         .value;
     let mut whole = TriMesh::default();
     for (model, text) in scene.views[0].models.iter().zip([moon(), model()]) {
-        let Model { original, .. } = load_original("m.obj", text.as_bytes(), false)
+        let Admitted { original, .. } = load_original("m.obj", text.as_bytes(), false)
             .expect("a mesh")
             .value;
         whole.append(&original.mesh.transformed(model.matrix));

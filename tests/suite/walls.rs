@@ -4,7 +4,7 @@ use super::shapes::{Outcome, Setting, ball, obj};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Goal};
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::load_model;
+use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
 use pillarforest::viewmap::SupportField;

@@ -4,7 +4,7 @@ use super::shapes::{ball, obj};
 use glam::DVec3;
 use pillarforest::compile::{Build, Goal, run};
 use pillarforest::diag::Diagnostic;
-use pillarforest::formats::{load_model, load_original};
+use pillarforest::intake::{load_model, load_original};
 use pillarforest::mesh::{Original, Solid, TriMesh, self_intersections};
 use pillarforest::scene;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! `detail`: models with fewer vertices for quick looks, with all that is said of their vertices.
 
-use crate::mesh::{Attributes, NO_UV, Original, Scalar, TriMesh, Uvs, simplified};
+use crate::mesh::{Attributes, NO_UV, Original, VertexScalar, TriMesh, Uvs, simplified};
 use crate::scene::defaults;
 use crate::scene::text::{Field, Reader};
 use crate::view::Marks;
@@ -87,9 +87,9 @@ fn colours(original: &Original, count: usize, kept: &[u32]) -> Vec<[f64; 4]> {
     }
 }
 
-fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<Scalar> {
-    let scalar = |s: &Scalar| {
-        Some(Scalar {
+fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<VertexScalar> {
+    let scalar = |s: &VertexScalar| {
+        Some(VertexScalar {
             name: s.name.clone(),
             values: picked(&original.values(&s.name, count)?, kept),
         })

@@ -4,7 +4,7 @@
 //! where they are on the model however it is fitted, turned to an eye or moved by a layout.
 
 use crate::diag::Diagnostic;
-use crate::formats;
+use crate::intake;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawModelRegion, RawVolume};
 use crate::scene::text::{
@@ -122,7 +122,7 @@ fn place(
 pub fn marks(
     reader: &mut Reader,
     regions: &[MarkedRegion],
-    model: &formats::Model,
+    model: &intake::Admitted,
     name: &str,
     file: &str,
 ) -> Marks {
@@ -171,7 +171,7 @@ impl MarkedRegion {
     ///
     /// # Errors
     /// A region without vertices, or an attribute that is not there or is no weight.
-    fn shares(&self, model: &formats::Model, file: &str) -> Result<Vec<f64>, Diagnostic> {
+    fn shares(&self, model: &intake::Admitted, file: &str) -> Result<Vec<f64>, Diagnostic> {
         let points = &model.mesh.vertices;
         let (lo, hi) = model.mesh.bounds().unwrap_or_default();
         let within = |inside: &dyn Fn(&DVec3) -> bool, what: String| {
@@ -204,7 +204,7 @@ impl MarkedRegion {
     fn painted(
         &self,
         name: &str,
-        model: &formats::Model,
+        model: &intake::Admitted,
         file: &str,
     ) -> Result<Vec<f64>, Diagnostic> {
         let original = &model.original;

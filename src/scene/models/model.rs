@@ -4,7 +4,7 @@ use super::detail;
 use super::marks::{self, MarkedRegion};
 use super::placing::{self, Placing};
 use crate::diag::Diagnostic;
-use crate::formats;
+use crate::intake;
 use crate::mesh::{Original, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawModel, RawScene};
@@ -112,7 +112,7 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
 pub fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     let parsed =
-        read(&model.file).and_then(|bytes| formats::load_original(&model.file, &bytes, false));
+        read(&model.file).and_then(|bytes| intake::load_original(&model.file, &bytes, false));
     let Some(loaded) = reader.read(parsed, &model.file_span) else {
         return;
     };

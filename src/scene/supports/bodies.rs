@@ -339,7 +339,7 @@ impl Maker<'_> {
         };
         let crease = crease.map(f64::to_radians);
         let loaded =
-            (self.read)(file).and_then(|bytes| crate::formats::load_model(file, &bytes, false));
+            (self.read)(file).and_then(|bytes| crate::intake::load_model(file, &bytes, false));
         let loaded = reader.read(loaded, &file_span)?;
         // Whether it is sound is found below: warnings with advice for models would only repeat it.
         let repairs = loaded.warnings.into_iter().filter(|w| w.help.is_empty());

@@ -1,8 +1,9 @@
 //! Outlines in the ground plane and the upright prisms over them.
 
 pub use crate::geom::{contains, gap, narrowest, to_segment};
-use crate::geom::{orient, polygon_area, segment_crossing};
+use crate::geom::{polygon_area, segment_crossing};
 use crate::mesh::TriMesh;
+use crate::mesh::polygon::triangulate_outline;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -75,7 +76,7 @@ pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
     let ring = |z: f64| profile.iter().map(move |p| DVec3::new(p.x, p.y, z));
     let vertices = ring(bottom).chain(ring(top)).collect();
     let mut faces = Vec::new();
-    for [a, b, c] in triangles(profile) {
+    for [a, b, c] in triangulate_outline(profile) {
         faces.push([c, b, a]);
         faces.push([a + n, b + n, c + n]);
     }
@@ -85,43 +86,6 @@ pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
         faces.push([i, j + n, i + n]);
     }
     TriMesh { vertices, faces }
-}
-
-/// Ear clipping with exact orientation; O(n^2) on polygons of at most some thousand points.
-fn triangles(polygon: &[DVec2]) -> Vec<[u32; 3]> {
-    let mut left: Vec<u32> = (0..polygon.len() as u32).collect();
-    let mut list = Vec::with_capacity(polygon.len());
-    let at = |i: u32| polygon[i as usize];
-    while left.len() > 3 {
-        let n = left.len();
-        let ear = (0..n).find(|&i| {
-            let corner = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-            let [a, b, c] = corner.map(at);
-            orient(a, b, c) > 0.0
-                && left
-                    .iter()
-                    .all(|&p| corner.contains(&p) || !inside(a, b, c, at(p)))
-        });
-        // A simple polygon always has an ear; a flat corner is the only other thing that can be left over.
-        let i = ear
-            .or_else(|| (0..n).find(|&i| is_flat(polygon, &left, i)))
-            .unwrap_or(0);
-        list.push([left[(i + n - 1) % n], left[i], left[(i + 1) % n]]);
-        left.remove(i);
-    }
-    list.push([left[0], left[1], left[2]]);
-    list
-}
-
-fn is_flat(polygon: &[DVec2], left: &[u32], i: usize) -> bool {
-    let n = left.len();
-    let [a, b, c] =
-        [left[(i + n - 1) % n], left[i], left[(i + 1) % n]].map(|v| polygon[v as usize]);
-    orient(a, b, c) == 0.0
-}
-
-fn inside(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
-    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
 }
 
 /// Distance of a point from a polygon, 0 inside.

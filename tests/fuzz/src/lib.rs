@@ -5,7 +5,8 @@
 //! larger than the input justifies.
 
 use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::formats::{inspect, load_original, read_mesh};
+use pillarforest::formats::read_mesh;
+use pillarforest::intake::{inspect, load_original};
 use pillarforest::mesh::{NO_UV, Original, TriMesh};
 use pillarforest::scene::{self, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -4,7 +4,7 @@
 
 use crate::diag::{Diagnostic, Place};
 use crate::formats::text::excerpt;
-use crate::mesh::{Attributes, Scalar, Uvs};
+use crate::mesh::{Attributes, Uvs, VertexScalar};
 use glam::DVec2;
 
 /// Real files have up to some twenty; what is more costs memory only.
@@ -21,7 +21,7 @@ const TEXTURE: [&[&str]; 2] = [&["s", "u", "texture_u"], &["t", "v", "texture_v"
 /// Normals follow from the surface.
 const NORMALS: [&str; 3] = ["nx", "ny", "nz"];
 
-struct Column {
+struct Channel {
     name: String,
     /// The value that means 1 as a colour, if the type says so.
     one: Option<f64>,
@@ -30,32 +30,32 @@ struct Column {
 
 /// See the module.
 #[derive(Default)]
-pub struct Columns {
-    columns: Vec<Column>,
+pub struct Channels {
+    kept: Vec<Channel>,
     /// Properties for which there is no place: named before, or too many.
     refused: Vec<String>,
 }
 
-impl Columns {
-    /// The column for a property; `None` if its values are not to be kept.
+impl Channels {
+    /// The channel for a property; `None` if its values are not to be kept.
     pub fn place(&mut self, name: &str, one: Option<f64>) -> Option<usize> {
         if NORMALS.contains(&name) {
             return None;
         }
-        if self.columns.len() == MOST || self.columns.iter().any(|c| c.name == name) {
+        if self.kept.len() == MOST || self.kept.iter().any(|c| c.name == name) {
             self.refused.push(name.to_owned());
             return None;
         }
-        self.columns.push(Column {
+        self.kept.push(Channel {
             name: name.to_owned(),
             one,
             values: Vec::new(),
         });
-        Some(self.columns.len() - 1)
+        Some(self.kept.len() - 1)
     }
 
-    pub fn push(&mut self, column: usize, value: f64) {
-        self.columns[column].values.push(value);
+    pub fn push(&mut self, channel: usize, value: f64) {
+        self.kept[channel].values.push(value);
     }
 
     /// The attributes of `count` vertices with these faces, and a warning for each that is of no use.
@@ -75,7 +75,7 @@ impl Columns {
             let why = format!("its name stands there twice, or there are more than {MOST}");
             warn(name, why);
         }
-        self.columns.retain(|c| match c.flaw(count) {
+        self.kept.retain(|c| match c.flaw(count) {
             Some(why) => {
                 warn(&c.name, why);
                 false
@@ -91,7 +91,7 @@ impl Columns {
             points,
             corners: faces.to_vec(),
         });
-        let scalars = self.columns.into_iter().map(|c| Scalar {
+        let scalars = self.kept.into_iter().map(|c| VertexScalar {
             name: c.name,
             values: c.values,
         });
@@ -103,16 +103,13 @@ impl Columns {
         (attributes, warnings)
     }
 
-    fn take(&mut self, names: &[&str]) -> Option<Column> {
-        let at = self
-            .columns
-            .iter()
-            .position(|c| names.contains(&&*c.name))?;
-        Some(self.columns.remove(at))
+    fn take(&mut self, names: &[&str]) -> Option<Channel> {
+        let at = self.kept.iter().position(|c| names.contains(&&*c.name))?;
+        Some(self.kept.remove(at))
     }
 
     fn has(&self, names: &[&str]) -> bool {
-        self.columns.iter().any(|c| names.contains(&&*c.name))
+        self.kept.iter().any(|c| names.contains(&&*c.name))
     }
 
     /// Red, green and blue, if all three are there.
@@ -148,7 +145,7 @@ impl Columns {
     }
 }
 
-impl Column {
+impl Channel {
     /// Why the values are of no use, if so.
     fn flaw(&self, count: usize) -> Option<String> {
         if self.values.len() != count {

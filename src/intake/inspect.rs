@@ -4,12 +4,13 @@
 //! vertices are joined, as every slicer does.
 
 use crate::diag::{Diagnostic, Warned};
-use crate::formats::read::{MeshFormat, NamedMesh, read_bodies};
+use crate::formats::{MeshFormat, NamedMesh, read_bodies};
 use crate::mesh::defects::{Defect, check};
-use crate::mesh::gate::unit_suspicion;
+use crate::mesh::size::size_doubt;
 use crate::mesh::topology::{Edges, vertex_parts};
 use crate::mesh::weld::{rounded_to_f32, weld};
 use crate::mesh::{Attributes, TriMesh};
+use crate::words::gate::doubted;
 use serde::Serialize;
 use std::fmt;
 
@@ -73,16 +74,16 @@ pub fn inspect(file_name: &str, bytes: &[u8]) -> Result<Warned<Inspection>, Diag
         value: bodies,
         mut warnings,
     } = read_bodies(file_name, bytes)?;
-    let mut whole = TriMesh::default();
+    let mut all = TriMesh::default();
     for body in &bodies {
-        whole.append(&body.mesh);
+        all.append(&body.mesh);
     }
-    warnings.extend(unit_suspicion(file_name, &whole));
+    warnings.extend(size_doubt(&all).map(|doubt| doubted(file_name, doubt)));
     let reports: Vec<BodyReport> = bodies.into_iter().map(body_report).collect();
     let together = (reports.len() > 1).then(|| {
         body_report(NamedMesh {
             name: "all together".to_owned(),
-            mesh: whole,
+            mesh: all,
             attributes: Attributes::default(),
         })
     });

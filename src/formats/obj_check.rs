@@ -1,0 +1,395 @@
+//! Wavefront OBJ before it is read: every line is checked, and what is wrong is told with its line.
+//!
+//! Takes the bytes of a file; gives how much of it can be used ([`Usable`]), or the first line that cannot be read as what it
+//! claims to be. `tobj` names no line in its errors, takes `nan` for a number and a missing texture point for the one before:
+//! it meets none of these in what is left. Values themselves are its business, none is kept here.
+
+use crate::diag::{Diagnostic, Place, Warned};
+use crate::formats::colours::Colours;
+use crate::formats::text::{at_line, coordinate, excerpt, lines, without_bom};
+
+/// Keywords of the format that say nothing about the surface.
+const IGNORED: [&[u8]; 31] = [
+    b"vp",
+    b"s",
+    b"mg",
+    b"usemtl",
+    b"mtllib",
+    b"usemap",
+    b"maplib",
+    b"l",
+    b"p",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+    b"curv",
+    b"curv2",
+    b"surf",
+    b"parm",
+    b"trim",
+    b"hole",
+    b"scrv",
+    b"sp",
+    b"end",
+    b"con",
+];
+
+/// Names longer than this are cut where they are shown or written.
+const MAX_NAME: usize = 255;
+
+/// What of a file can be used.
+#[derive(Clone, Copy, Debug)]
+pub struct Usable {
+    pub vertices: usize,
+    /// Whether every vertex has a colour.
+    pub coloured: bool,
+    /// How many texture points there are; `None` if no face uses any, or if they are of no use.
+    pub texture_points: Option<usize>,
+}
+
+/// # Errors
+/// The first line that cannot be read as what it claims to be, or a file without faces.
+pub fn check(file: &str, bytes: &[u8]) -> Result<Warned<Usable>, Diagnostic> {
+    let mut scan = Scan::new(file, bytes);
+    for (number, line) in logical_lines(bytes) {
+        scan.line(number, &line)?;
+    }
+    scan.finish()
+}
+
+/// Lines with continuations (a `\` at the end) joined and comments cut off; the number is that of the first one.
+pub fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
+    let mut physical = lines(without_bom(bytes));
+    std::iter::from_fn(move || {
+        let (number, first) = physical.next()?;
+        let mut line = first.to_vec();
+        while !is_comment(&line) && line.trim_ascii_end().last() == Some(&b'\\') {
+            line.truncate(line.trim_ascii_end().len() - 1);
+            line.push(b' ');
+            let Some((_, more)) = physical.next() else {
+                break;
+            };
+            line.extend_from_slice(more);
+        }
+        // Only at the start of a word: `1.#IND` is a broken number, not a number with a comment.
+        let starts_comment =
+            |k: &usize| line[*k] == b'#' && (*k == 0 || line[*k - 1].is_ascii_whitespace());
+        if let Some(hash) = (0..line.len()).find(starts_comment) {
+            line.truncate(hash);
+        }
+        Some((number, line))
+    })
+}
+
+fn is_comment(line: &[u8]) -> bool {
+    line.trim_ascii_start().first() == Some(&b'#')
+}
+
+/// What has been read so far.
+struct Scan<'a> {
+    file: &'a str,
+    bytes: &'a [u8],
+    vertices: usize,
+    colours: Colours,
+    texture_points: usize,
+    /// The first texture point that is none: its line, and why.
+    bad_texture: Option<(usize, String)>,
+    normals: usize,
+    faces: usize,
+    /// Vertices that faces use before they are there: the line and the 1-based index.
+    early: Vec<(usize, i64)>,
+    /// Largest vt and vn index with its line: they may be defined later.
+    largest_vt: (i64, usize),
+    largest_vn: (i64, usize),
+    bad_names: Vec<usize>,
+    unknown: Vec<(usize, String)>,
+}
+
+impl<'a> Scan<'a> {
+    fn new(file: &'a str, bytes: &'a [u8]) -> Self {
+        Self {
+            file,
+            bytes,
+            vertices: 0,
+            colours: Colours::default(),
+            texture_points: 0,
+            bad_texture: None,
+            normals: 0,
+            faces: 0,
+            early: Vec::new(),
+            largest_vt: (0, 0),
+            largest_vn: (0, 0),
+            bad_names: Vec::new(),
+            unknown: Vec::new(),
+        }
+    }
+
+    fn line(&mut self, number: usize, line: &[u8]) -> Result<(), Diagnostic> {
+        if line.contains(&0) {
+            return Err(at_line(
+                self.file,
+                number,
+                line,
+                "a zero byte in a text file: damaged, or not an OBJ file",
+            ));
+        }
+        let mut words = line
+            .split(|b| b.is_ascii_whitespace())
+            .filter(|w| !w.is_empty());
+        let Some(keyword) = words.next() else {
+            return Ok(());
+        };
+        match keyword {
+            b"v" => self.vertex(number, line, words),
+            b"f" | b"fo" => self.face(number, line, words),
+            b"vt" => {
+                self.texture_point(number, words);
+                Ok(())
+            }
+            b"vn" => {
+                self.normals += 1;
+                Ok(())
+            }
+            b"o" | b"g" => {
+                if line.len() > MAX_NAME || line.iter().any(|b| b.is_ascii_control() && *b != b'\t')
+                {
+                    self.bad_names.push(number);
+                }
+                Ok(())
+            }
+            // Old editors end files with a Ctrl-Z.
+            b"\x1A" => Ok(()),
+            _ if IGNORED.contains(&keyword) => Ok(()),
+            _ if keyword.iter().all(|b| b.is_ascii_graphic()) => {
+                self.unknown.push((number, excerpt(keyword)));
+                Ok(())
+            }
+            _ => Err(at_line(
+                self.file,
+                number,
+                line,
+                "not a line of an OBJ file: it starts with bytes that are not text",
+            )),
+        }
+    }
+
+    fn vertex<'w>(
+        &mut self,
+        number: usize,
+        line: &[u8],
+        mut words: impl Iterator<Item = &'w [u8]>,
+    ) -> Result<(), Diagnostic> {
+        let mut count = 0;
+        for word in words.by_ref().take(3) {
+            coordinate(word).map_err(|why| {
+                let vertex = self.vertices + 1;
+                let message = format!("vertex {vertex} has a coordinate that is {why}");
+                at_line(self.file, number, line, message)
+            })?;
+            count += 1;
+        }
+        if count < 3 {
+            let message = format!("a vertex with {count} coordinates, 3 wanted");
+            return Err(at_line(self.file, number, line, message));
+        }
+        self.vertices += 1;
+        // Three more numbers are a colour; one is a weight, and what more would be nobody agrees on.
+        let more: Vec<&[u8]> = words.take(4).collect();
+        if let [r, g, b] = more[..] {
+            self.colours.check(number, [r, g, b]);
+        } else {
+            self.colours.miss();
+        }
+        Ok(())
+    }
+
+    fn texture_point<'w>(&mut self, number: usize, words: impl Iterator<Item = &'w [u8]>) {
+        for word in words.take(2) {
+            if let Err(why) = coordinate(word) {
+                self.bad_texture.get_or_insert((number, why));
+            }
+        }
+        self.texture_points += 1;
+    }
+
+    fn face<'w>(
+        &mut self,
+        number: usize,
+        line: &[u8],
+        words: impl Iterator<Item = &'w [u8]>,
+    ) -> Result<(), Diagnostic> {
+        let mut count = 0;
+        for word in words {
+            self.corner(number, word)
+                .map_err(|why| at_line(self.file, number, line, why))?;
+            count += 1;
+        }
+        if count < 3 {
+            let message =
+                format!("a face with {count} corners, at least 3 wanted (is the file cut short?)");
+            return Err(at_line(self.file, number, line, message));
+        }
+        self.faces += 1;
+        Ok(())
+    }
+
+    /// Notes the indices of `7`, `7/1`, `7//3`, `7/1/3` or of the same with negative (relative) numbers.
+    fn corner(&mut self, number: usize, word: &[u8]) -> Result<(), String> {
+        let mut parts = word.split(|b| *b == b'/');
+        let position = index(
+            parts.next().unwrap_or_default(),
+            self.vertices as i64,
+            "vertex",
+        )?;
+        if position > self.vertices as i64 {
+            self.early.push((number, position));
+        }
+        for (part, texture) in parts.by_ref().take(2).zip([true, false]) {
+            if part.is_empty() {
+                continue;
+            }
+            if texture {
+                let vt = index(part, self.texture_points as i64, "texture")?;
+                self.largest_vt = self.largest_vt.max((vt, number));
+            } else {
+                let vn = index(part, self.normals as i64, "normal")?;
+                self.largest_vn = self.largest_vn.max((vn, number));
+            }
+        }
+        match parts.next() {
+            Some(_) => Err(format!(
+                "a face corner with too many slashes: `{}`",
+                excerpt(word)
+            )),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(self) -> Result<Warned<Usable>, Diagnostic> {
+        let of_file =
+            |message: String| Err(Diagnostic::error(message).at(Place::File(self.file.to_owned())));
+        if self.faces == 0 {
+            return match self.vertices {
+                0 => of_file("the file has no vertices and no faces".to_owned()),
+                n => of_file(format!("the file has {n} vertices but no faces")),
+            };
+        }
+        if self.vertices.max(self.texture_points) >= u32::MAX as usize {
+            return of_file("the file has more than 4294967294 vertices".to_owned());
+        }
+        self.check_range()?;
+        let mut warnings = self.warnings();
+        let coloured = self.colours.finish(self.file).unwrap_or_else(|warning| {
+            warnings.push(warning);
+            false
+        });
+        let unused = self.largest_vt.0 == 0 || self.bad_texture.is_some() || self.dangling();
+        Ok(Warned {
+            warnings,
+            value: Usable {
+                vertices: self.vertices,
+                coloured,
+                texture_points: (!unused).then_some(self.texture_points),
+            },
+        })
+    }
+
+    /// Whether faces use texture points or normals that the file does not have.
+    fn dangling(&self) -> bool {
+        self.largest_vt.0 > self.texture_points as i64 || self.largest_vn.0 > self.normals as i64
+    }
+
+    /// Faces may come before their vertices, so this waits for the end.
+    fn check_range(&self) -> Result<(), Diagnostic> {
+        let vertices = self.vertices;
+        let missing = |(_, index): &&(usize, i64)| *index > vertices as i64;
+        let Some((line, index)) = self.early.iter().find(missing) else {
+            return Ok(());
+        };
+        let message = format!("a face uses vertex {index}, but the file has {vertices} vertices");
+        let (_, text) = lines(self.bytes).nth(line - 1).unwrap_or_default();
+        Err(at_line(self.file, *line, text, message))
+    }
+
+    fn warnings(&self) -> Vec<Diagnostic> {
+        let mut warnings = Vec::new();
+        let mut warn = |line: usize, message: String| {
+            warnings.push(Diagnostic::warning(message).at(Place::Line {
+                file: self.file.to_owned(),
+                line,
+                excerpt: String::new(),
+            }));
+        };
+        let missing_vt = self.largest_vt.0 > self.texture_points as i64;
+        if self.dangling() {
+            let (_, line) = if missing_vt {
+                self.largest_vt
+            } else {
+                self.largest_vn
+            };
+            warn(
+                line,
+                format!(
+                    "faces use texture point {} and normal {}, but the file has {} and {}: texture points are not used",
+                    self.largest_vt.0, self.largest_vn.0, self.texture_points, self.normals
+                ),
+            );
+        }
+        if let Some((line, why)) = &self.bad_texture {
+            warn(
+                *line,
+                format!(
+                    "a texture point has a coordinate that is {why}: texture points are not used"
+                ),
+            );
+        }
+        if let Some(first) = self.bad_names.first() {
+            warn(
+                *first,
+                format!(
+                    "object names longer than {MAX_NAME} bytes or with control characters are not used ({} of them)",
+                    self.bad_names.len()
+                ),
+            );
+        }
+        if let Some((first, word)) = self.unknown.first() {
+            warn(
+                *first,
+                format!(
+                    "lines with unknown keywords are ignored ({} of them), the first is `{word}`",
+                    self.unknown.len()
+                ),
+            );
+        }
+        warnings
+    }
+}
+
+/// An absolute 1-based index; `so_far` elements of its kind have been defined above.
+fn index(word: &[u8], so_far: i64, kind: &str) -> Result<i64, String> {
+    let text = std::str::from_utf8(word).unwrap_or_default();
+    let Ok(given) = text.parse::<i64>() else {
+        return Err(format!(
+            "a face corner that is not a whole number: `{}`",
+            excerpt(word)
+        ));
+    };
+    match given {
+        0 => Err(format!("a {kind} index 0: OBJ counts from 1")),
+        1..=0xFFFF_FFFE => Ok(given),
+        _ if given > 0 => Err(format!("a {kind} index {given}, more than 4294967294")),
+        _ if given < -so_far => Err(format!(
+            "a relative {kind} index {given}, but only {so_far} are defined above"
+        )),
+        _ => Ok(so_far + 1 + given),
+    }
+}
