@@ -7,16 +7,16 @@
 //!
 //! Cells are sampled in equal parts, so a thing in the way counts to within a part of a cell: half a millimetre at most.
 
-use super::Seen;
+use super::point::without_minus_zero;
+use super::seen::Seen;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
-use crate::diag::Diagnostic;
 use crate::geom::SQUARE_ARCMIN;
 use crate::relief::Relief;
 use crate::viewmap::SupportField;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A ray that meets the solid nearer than this to the plane of its cell's relief meets the relief, millimetres. Rounding to
 /// f32, mending and levelled steps leave 0.02 mm on real builds; anything that could be seen stands out by far more.
@@ -37,7 +37,7 @@ const AROUND: usize = 8;
 const SHARES: [f64; 3] = [0.25, 0.5, 1.0];
 
 /// What is wrong with a ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trouble {
     /// Something stands before the relief.
@@ -47,7 +47,7 @@ pub enum Trouble {
 }
 
 /// Rays of one kind that are disturbed by one thing.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Disturbance {
     pub trouble: Trouble,
     /// The view whose relief stands in the way; none if a bare support does.
@@ -103,29 +103,6 @@ impl<'a> Finished<'a> {
     }
 }
 
-impl Sighted {
-    /// Warnings of what is listed.
-    pub fn warnings(&self, view: &str) -> Vec<Diagnostic> {
-        let told = |d: &Disturbance| {
-            let support = d.support.as_deref().unwrap_or("nothing known");
-            let [x, y, z] = d.place_mm;
-            let what = match (d.trouble, &d.with_view) {
-                (Trouble::Missing, _) => format!("misses its relief on {support}"),
-                (_, Some(other)) => {
-                    format!("has the relief of view \"{other}\" on {support} before its own")
-                }
-                (_, None) => format!("has {support} before its relief"),
-            };
-            Diagnostic::warning(format!(
-                "view \"{view}\" {what} over {:.1} square arc-minutes, mostly near ({x:.1}, {y:.1}, {z:.1}) mm",
-                d.arcmin2
-            ))
-            .help("move pillars apart there, or make their layers thinner")
-        };
-        self.disturbances.iter().map(told).collect()
-    }
-}
-
 /// A ray that did not meet the relief.
 struct Miss {
     cell: u32,
@@ -144,9 +121,9 @@ pub fn sighted(
     given_up: &[u32],
     finished: &Finished,
 ) -> Sighted {
-    let cells: Vec<Cell> = (relief.depth.iter().enumerate())
+    let cells: Vec<SampledCell> = (relief.depth.iter().enumerate())
         .filter(|(c, _)| given_up.binary_search(&(*c as u32)).is_err())
-        .filter_map(|(c, depth)| Some(Cell::new(seen, c, (*depth)?)))
+        .filter_map(|(c, depth)| Some(SampledCell::new(seen, c, (*depth)?)))
         .collect();
     let misses: Vec<Miss> = cells
         .par_iter()
@@ -191,7 +168,7 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
             with_view: view.map(|v| finished.names[v as usize].to_owned()),
             support: support.map(|s| finished.field.supports[s as usize].name.clone()),
             arcmin2: group.iter().map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN,
-            place_mm: (widest.place + 0.0).to_array(),
+            place_mm: without_minus_zero(widest.place),
         });
     }
     let filled = misses.iter().filter(|m| m.kind.is_none());
@@ -203,7 +180,7 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
 }
 
 /// A cell with its relief.
-struct Cell {
+struct SampledCell {
     index: u32,
     corners: [DVec2; 3],
     /// `1 / depth` at the corners: affine in the image.
@@ -214,7 +191,7 @@ struct Cell {
     parts: usize,
 }
 
-impl Cell {
+impl SampledCell {
     fn new(seen: &Seen, c: usize, depth: [f64; 3]) -> Self {
         let corners = seen.map.triangle(c);
         let [p, q, r] = [0, 1, 2].map(|k| seen.map.plane.point(corners[k], depth[k]));

@@ -4,20 +4,20 @@
 //! support or none) and every gap: a connected region of the image with a model and one cause why nothing carries it.
 //! Gaps of different causes meet at cells' sides: where no outline divides them, to within a cell.
 
-use super::Seen;
-use crate::diag::Diagnostic;
+use super::point::without_minus_zero;
+use super::seen::Seen;
 use crate::geom::SQUARE_ARCMIN;
 use crate::groups::anchor;
 use crate::support::{Support, SupportKind};
 use crate::viewmap::SupportField;
 use glam::{DVec2, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Gaps below this share of the models are rounding at their outline: counted and summed, not listed.
 pub const GAP_SHARE: f64 = 1e-6;
 
 /// Why nothing shows the model in a gap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
     /// The rays pass no pillar at all.
@@ -33,7 +33,7 @@ pub enum Cause {
 }
 
 /// A connected region of the image with one cause.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
     /// Square arc-minutes.
     pub arcmin2: f64,
@@ -72,6 +72,14 @@ pub struct Coverage {
     /// Number and size of gaps too small to list.
     pub small_gaps: usize,
     pub small_gaps_arcmin2: f64,
+}
+
+/// All gaps of one cause.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CauseShare<'a> {
+    pub largest: &'a Gap,
+    /// All of them together, as a share of the models.
+    pub share: f64,
 }
 
 /// A cause with what it concerns, by index.
@@ -144,68 +152,21 @@ impl Coverage {
         self.models.iter().map(|m| m.carried_sr).sum::<f64>() / self.solid_angle_sr()
     }
 
-    /// What is worth telling of a view's gaps: one warning for each cause.
-    pub fn warnings(&self, view: &str) -> Vec<Diagnostic> {
+    /// The gaps cause by cause, in the order of [`Cause`].
+    pub fn by_cause(&self) -> Vec<CauseShare<'_>> {
         let mut causes: Vec<Cause> = self.gaps.iter().map(|g| g.cause).collect();
         causes.sort_unstable();
         causes.dedup();
-        let whole = self.solid_angle_sr() * SQUARE_ARCMIN;
-        let told = causes.into_iter().map(|cause| {
-            let mut gaps = self.gaps.iter().filter(|g| g.cause == cause).peekable();
-            let largest = gaps.peek().map(|g| (*g).clone());
-            (largest, gaps.map(|g| g.arcmin2).sum::<f64>() / whole)
-        });
-        told.filter_map(|(largest, share)| Some(warning(view, &largest?, share)))
-            .collect()
+        let all = self.solid_angle_sr() * SQUARE_ARCMIN;
+        let share = |cause: Cause| {
+            let of_cause = || self.gaps.iter().filter(|g| g.cause == cause);
+            Some(CauseShare {
+                largest: of_cause().next()?,
+                share: of_cause().map(|g| g.arcmin2).sum::<f64>() / all,
+            })
+        };
+        causes.into_iter().filter_map(share).collect()
     }
-}
-
-/// The warning of all gaps of one cause, with the largest.
-fn warning(view: &str, gap: &Gap, share: f64) -> Diagnostic {
-    let support = gap.support.as_deref().unwrap_or_default();
-    let (reason, help) = match gap.cause {
-        Cause::NoPillar => (
-            "no pillar stands there".to_owned(),
-            "add a pillar there, or move the models".to_owned(),
-        ),
-        Cause::PillarTooShort => (
-            format!(
-                "{support} is too short by {:.2} mm",
-                gap.wanted_mm.unwrap_or(0.0)
-            ),
-            format!("raise {support} (`height`), or lower the models"),
-        ),
-        Cause::OtherView => (
-            format!(
-                "view \"{}\" needs {support}",
-                gap.view.as_deref().unwrap_or_default()
-            ),
-            "move pillars or models apart; `contested` says who gets what two views want"
-                .to_owned(),
-        ),
-        Cause::Hidden => (
-            format!("it meets {support}, which carries nothing for it"),
-            "put a pillar before it, or move the models".to_owned(),
-        ),
-        Cause::Infeasible => (
-            format!("no sound relief could be made on {support}"),
-            "thicker layers (`front`, `back`) make it easier".to_owned(),
-        ),
-    };
-    let side = |angle: f64, less: &str, more: &str| {
-        format!(
-            "{:.1} degrees {}",
-            angle.abs(),
-            if angle < 0.0 { less } else { more }
-        )
-    };
-    Diagnostic::warning(format!(
-        "view \"{view}\" misses {:.2} % of its models, mostly {} and {} its line of sight: {reason}",
-        100.0 * share,
-        side(gap.right_deg, "left of", "right of"),
-        side(gap.up_deg, "below", "above"),
-    ))
-    .help(help)
 }
 
 /// Connected cells with the same reason, by their first cell.
@@ -314,7 +275,7 @@ fn gap(seen: &Seen, views: &[&str], field: &SupportField, why: Why, cells: &[u32
     };
     Gap {
         arcmin2: whole * SQUARE_ARCMIN,
-        place_mm: (map.plane.point(q, depth) + 0.0).to_array(),
+        place_mm: without_minus_zero(map.plane.point(q, depth)),
         right_deg: q.x.atan().to_degrees(),
         up_deg: q.y.atan().to_degrees(),
         cause,

@@ -8,7 +8,7 @@ use super::progress::Reporter;
 use super::write::{self, Target};
 use super::{Cli, Command, Global, Quality, SceneArgs, Style};
 use clap::CommandFactory;
-use pillarforest::compile::{self, Build, Goal};
+use pillarforest::compile::{self, Build, Drawn, Progress, Stop};
 use pillarforest::diag::{Diagnostic, Warned};
 use pillarforest::scene::{self, Scene};
 use pillarforest::support::Support;
@@ -41,7 +41,7 @@ pub fn run(cli: &Cli) -> u8 {
                 scene.sets.push("output.split=true".into());
             }
             let order = Order {
-                goal: Goal::All,
+                goal: Goal::Forest,
                 output: output.as_deref(),
                 force: *force,
             };
@@ -229,28 +229,31 @@ impl Loaded {
     }
 }
 
-/// Runs the pipeline with progress. The error code has been explained to the user.
-fn compile(
+/// Runs one of the pipeline's goals with progress, and prints the `warnings` that it gives. The error code has been explained to the
+/// user.
+fn compile<T>(
     messages: &Messages,
     global: &Global,
     args: &SceneArgs,
     loaded: &Loaded,
-    goal: Goal,
-) -> Result<(Build, Reporter), u8> {
+    goal: impl FnOnce(&Scene, Progress, Stop) -> Result<T, Vec<Diagnostic>>,
+    warnings: impl FnOnce(&T) -> &[Diagnostic],
+) -> Result<(T, Reporter), u8> {
     let reporter = Reporter::new(global.quiet, global.verbose);
     let stop = loaded.time_is_up();
     let progress = |stage: &str, share| reporter.report(stage, share);
-    let result = compile::run(&loaded.scene, goal, &progress, &stop);
+    let result = goal(&loaded.scene, &progress, &stop);
     reporter.finish();
-    let build = result.map_err(|problems| loaded.failed(messages, &problems))?;
-    if messages.print(&build.warnings, Some(&loaded.source)) {
-        messages.closing(&build.warnings, NOTHING);
+    let done = result.map_err(|problems| loaded.failed(messages, &problems))?;
+    let warnings = warnings(&done);
+    if messages.print(warnings, Some(&loaded.source)) {
+        messages.closing(warnings, NOTHING);
         return Err(WRONG_INPUT);
     }
     if args.timings {
         reporter.tell(messages.is_json());
     }
-    Ok((build, reporter))
+    Ok((done, reporter))
 }
 
 /// `1 view`, `2 views`.
@@ -262,9 +265,9 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
     let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
-    match compile(messages, global, args, &loaded, Goal::Check) {
+    match compile(messages, global, args, &loaded, compile::check, |w| w) {
         Err(code) => code,
-        Ok((build, _)) => {
+        Ok((told, _)) => {
             let views = count(loaded.scene.views.len(), "view");
             let pillars = match &loaded.scene.brief {
                 Some(_) => "pillars to be found".to_string(),
@@ -277,7 +280,7 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
                     count(supports.iter().filter(|s| s.layer.is_some()).count(), what)
                 }
             };
-            let warnings = loaded.warnings.len() + build.warnings.len();
+            let warnings = loaded.warnings.len() + told.len();
             let found = if warnings == 0 {
                 "no problems".to_string()
             } else {
@@ -287,6 +290,31 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
                 "{}: {views}, {pillars}: {found}\n",
                 args.scene.display()
             ))
+        }
+    }
+}
+
+/// What is to be made of a scene.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Goal {
+    Forest,
+    Plan,
+    Pictures,
+}
+
+impl Goal {
+    fn run(self, scene: &Scene, progress: Progress, stop: Stop) -> Result<Build, Vec<Diagnostic>> {
+        // Plans and pictures promise nothing.
+        let unjudged = |drawn: Drawn| Build {
+            files: drawn.files,
+            summary: drawn.summary,
+            failures: Vec::new(),
+            warnings: drawn.warnings,
+        };
+        match self {
+            Self::Forest => compile::build(scene, progress, stop),
+            Self::Plan => compile::plan(scene, progress, stop).map(unjudged),
+            Self::Pictures => compile::pictures(scene, progress, stop).map(unjudged),
         }
     }
 }
@@ -313,7 +341,7 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
     let allowed: &[&str] = match order.goal {
         Goal::Plan => &["svg", "png"],
         Goal::Pictures => &[],
-        _ => &["3mf", "stl", "glb", "svg", "png", "json"],
+        Goal::Forest => &["3mf", "stl", "glb", "svg", "png", "json"],
     };
     let target = match Target::new(order.output, &args.scene, allowed) {
         Ok(target) => target,
@@ -322,12 +350,15 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, order: &Order) -
     let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
-    if order.goal == Goal::All && loaded.scene.output.split && matches!(target, Target::File(_)) {
+    if order.goal == Goal::Forest && loaded.scene.output.split && matches!(target, Target::File(_))
+    {
         let problem = Diagnostic::error("`--split` writes many files, and `-o` names only one")
             .help("give a directory: `-o out/pieces`");
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
-    let (build, reporter) = match compile(messages, global, args, &loaded, order.goal) {
+    let goal =
+        |scene: &Scene, progress: Progress, stop: Stop| order.goal.run(scene, progress, stop);
+    let (build, reporter) = match compile(messages, global, args, &loaded, goal, |b| &b.warnings) {
         Ok(done) => done,
         Err(code) => return code,
     };

@@ -23,7 +23,7 @@ use crate::diag::Diagnostic;
 use crate::geom::SQUARE_ARCMIN;
 use crate::viewmap::SupportField;
 use claims::{Meeting, Patch, meetings, patches};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Who gets contested surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub enum Contested {
 }
 
 /// Cells of one view on one support that are in conflict with those of another view on one support.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contest {
     pub with_view: String,
     pub support: String,

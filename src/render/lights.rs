@@ -38,7 +38,7 @@ use crate::render::{camera, light_sheet};
 use crate::view::View;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Side of the measured picture, pixels. On the reference forest and the bundled one every sun's rmse is within 1.5 % of that at
 /// 240, the shares of shadow within 0.013; 240 take twice as long.
@@ -69,7 +69,7 @@ pub const PAPER: f64 = (255.0 - DARK) / SPAN;
 const FLAT: f64 = 1e-18;
 
 /// How a view looks in one light: the forest against the model. Means of the two sides for a sun.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightLikeness {
     /// `sun_15`, `sun_30`, `sun_60`, `overcast` or `flash`.
     pub light: String,

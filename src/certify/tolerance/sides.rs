@@ -1,6 +1,6 @@
 //! Sides of a view map at which an eye that moves sees its pieces part, and the worst of them that is more than a speck.
 
-use super::{Cut, parting};
+use super::rift::{Rift, parting};
 use crate::geom::{ImagePlane, parallax};
 use crate::groups::anchor;
 use crate::mesh::DisjointSets;
@@ -18,7 +18,7 @@ pub fn least(plane: &ImagePlane) -> f64 {
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
-pub struct Side {
+pub struct CutSide {
     /// Image points of its ends.
     points: [u32; 2],
     /// Of the cells on both sides.
@@ -33,7 +33,7 @@ pub struct Side {
     model: [[f64; 2]; 2],
 }
 
-impl Side {
+impl CutSide {
     /// By how much more the relief parts than the model at the worse end, radians for each millimetre that an eye `back`
     /// millimetres farther away moves square to the side.
     pub fn excess(&self, back: f64) -> f64 {
@@ -63,13 +63,13 @@ impl Side {
     }
 
     /// In the middle of the side.
-    pub fn cut(&self) -> Cut {
+    pub fn cut(&self) -> Rift {
         let middle = (self.rays[0] + self.rays[1]) / 2.0;
         // Depths along the forward axis are harmonic along the side.
         let nearness = |k: usize, cell: usize| self.rays[k].length() / self.relief[k][cell];
         let [a, b] =
             [0, 1].map(|cell| 2.0 * middle.length() / (nearness(0, cell) + nearness(1, cell)));
-        Cut {
+        Rift {
             direction: middle.normalize(),
             normal: self.normal,
             distances: [a.min(b), a.max(b)],
@@ -83,7 +83,7 @@ impl Side {
 }
 
 /// All sides between two cells with reliefs that open at all, in the order of the cells.
-pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<Side> {
+pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<CutSide> {
     let mut sides = Vec::new();
     let least = least(&map.plane);
     for c in 0..map.cells.len() {
@@ -102,7 +102,7 @@ fn side(
     relief: &Relief,
     cells: [usize; 2],
     k: usize,
-) -> Option<Side> {
+) -> Option<CutSide> {
     let corners = map.cells[cells[0]].corners;
     let points = [corners[k], corners[(k + 1) % 3]];
     let rays = points.map(|p| map.plane.direction(map.points[p as usize]));
@@ -120,7 +120,7 @@ fn side(
             of_model[end][i] = model * rays[end].length();
         }
     }
-    Some(Side {
+    Some(CutSide {
         points,
         supports,
         rays,
@@ -143,9 +143,9 @@ pub struct Critical {
 /// The largest rate at which sides of that rate or more hang together over `extent` radians. Sides are joined at shared points
 /// (indices below `points`), steepest first, until a cut is long enough.
 pub fn critical(
-    sides: &[Side],
+    sides: &[CutSide],
     points: usize,
-    rate: impl Fn(&Side) -> f64,
+    rate: impl Fn(&CutSide) -> f64,
     extent: f64,
 ) -> Option<Critical> {
     let mut order: Vec<(f64, usize)> = sides.iter().map(rate).zip(0..).collect();

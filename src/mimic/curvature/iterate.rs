@@ -14,7 +14,7 @@ use super::sheet::Sheet;
 use super::{Depths, Problem, seen_solid_angles};
 use crate::mesh::TriMesh;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Change at which the rounds have converged, as a share of the layer's width: 7 micrometres of 7 mm, less than any printer's
 /// resolution.
@@ -24,7 +24,7 @@ const SETTLED: f64 = 1e-3;
 const RUNAWAY: f64 = 1.1;
 
 /// How an iteration went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Iterated {
     /// Rounds allowed.
     pub allowed: u32,
@@ -38,7 +38,7 @@ pub struct Iterated {
 }
 
 /// One round.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Round {
     /// Largest change of a seen vertex's relative depth, as a share of the layer's width.
     pub change: f64,
@@ -47,7 +47,7 @@ pub struct Round {
 }
 
 /// How it ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The last change is below the tolerance.
