@@ -1,40 +1,59 @@
-//! The stages from a scene to its reliefs, and the error of the reliefs' normals.
+//! What comparisons measure without building a solid: the error of the normals of a scene's reliefs.
+//!
+//! Takes a scene's text with changes, as on the command line; gives the scene, what its eyes see, and for each view the angle
+//! between the normals of model and relief. The library has no clock: whoever compares times holds one.
 
+use crate::diag::Diagnostic;
+use crate::groups::groups;
+use crate::mimic::{Energy, depths};
+use crate::relief::{Relief, relief};
+use crate::report::NormalError;
+use crate::scene::{self, ReadFile, Scene};
+use crate::steps::torn;
+use crate::view::View;
+use crate::viewmap::{SupportField, Target, ViewMap, view_map};
 use glam::DVec3;
-use pillarforest::diag::Diagnostic;
-use pillarforest::groups::groups;
-use pillarforest::mimic::{Energy, depths};
-use pillarforest::relief::{Relief, relief};
-use pillarforest::scene::Scene;
-use pillarforest::steps::torn;
-use pillarforest::view::View;
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
 
-/// What one eye sees.
-pub struct Seen {
+/// The scene with changed values, each as `--set` has it.
+///
+/// # Errors
+/// What is wrong with the scene or the changes, in one line.
+pub fn changed<S: AsRef<str>>(text: &str, sets: &[S], read: ReadFile) -> Result<Scene, String> {
+    let set = |text: String, set: &S| scene::set(&text, set.as_ref());
+    let text = sets.iter().try_fold(text.to_owned(), set);
+    let text = text.map_err(|d| d.message)?;
+    let done = scene::resolve(&text, read).map_err(|problems| told(&problems))?;
+    Ok(done.value)
+}
+
+/// What one eye sees; it does not depend on layers and energies.
+pub struct MappedView {
     target: Target,
     map: ViewMap,
 }
 
-/// Error of the normals in degrees over the solid angle of what the eye sees: mean, median, and what 90 % lie below.
-pub type Errors = [f64; 3];
-
 /// Maps all views of a scene.
-pub fn seen(scene: &Scene) -> Result<Vec<Seen>, String> {
+///
+/// # Errors
+/// Why a view cannot be mapped.
+pub fn mapped(scene: &Scene) -> Result<Vec<MappedView>, String> {
     let field = SupportField::new(&scene.supports);
     let map = |view: &View| {
         let plane = view.plane();
         let target = Target::new(view.target(), &plane).ok_or("models beside the eye")?;
         let map = view_map(plane, &target, &field).map_err(|e| e.to_string())?;
-        Ok(Seen { target, map })
+        Ok(MappedView { target, map })
     };
     scene.views.iter().map(map).collect()
 }
 
-/// The relief of one view, and how far its normals are off.
-pub fn errors(scene: &Scene, view: &View, seen: &Seen) -> Result<Errors, String> {
+/// How far the normals of one view's relief are off, degrees over the solid angle of what the eye sees.
+///
+/// # Errors
+/// Why there is no relief.
+pub fn relief_errors(scene: &Scene, view: &View, seen: &MappedView) -> Result<NormalError, String> {
     let field = SupportField::new(&scene.supports);
-    let Seen { target, map } = seen;
+    let MappedView { target, map } = seen;
     let groups = groups(&view.name, map, target, &field).map_err(|p| told(&p))?;
     if let (Energy::Normal(options), Some(steps)) = (scene.energy, &scene.steps) {
         let torn = torn(steps, options, target, map, &field, &groups).map_err(|e| e.to_string())?;
@@ -47,7 +66,7 @@ pub fn errors(scene: &Scene, view: &View, seen: &Seen) -> Result<Errors, String>
 }
 
 /// Compares the plane of every cell of a relief with the model's face there.
-fn normal_errors(map: &ViewMap, target: &Target, relief: &Relief) -> Errors {
+fn normal_errors(map: &ViewMap, target: &Target, relief: &Relief) -> NormalError {
     let mut found: Vec<(f64, f64)> = Vec::new();
     for (cell, depth) in relief.depth.iter().enumerate() {
         let (Some(depth), Some(face)) = (depth, map.cells[cell].face) else {
@@ -65,9 +84,13 @@ fn normal_errors(map: &ViewMap, target: &Target, relief: &Relief) -> Errors {
     }
     found.retain(|(angle, _)| angle.is_finite());
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let whole: f64 = found.iter().map(|f| f.1).sum();
-    let mean = found.iter().map(|(angle, w)| angle * w).sum::<f64>() / whole;
-    [mean, below(&found, 0.5 * whole), below(&found, 0.9 * whole)]
+    let all: f64 = found.iter().map(|f| f.1).sum();
+    let mean = found.iter().map(|(angle, w)| angle * w).sum::<f64>() / all;
+    NormalError {
+        mean,
+        median: below(&found, 0.5 * all),
+        p90: below(&found, 0.9 * all),
+    }
 }
 
 /// `normal`, turned against the ray if it points along it.
@@ -90,7 +113,7 @@ fn below(found: &[(f64, f64)], share: f64) -> f64 {
 }
 
 /// Messages in one line.
-pub fn told(problems: &[Diagnostic]) -> String {
+fn told(problems: &[Diagnostic]) -> String {
     let messages: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
     messages.join("; ")
 }
