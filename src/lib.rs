@@ -7,7 +7,7 @@
 //!
 //! # Stages
 //!
-//! Each stage is a function from one named type to the next; [`compile::run`] is all of them on one screen.
+//! Each stage is a function from one named type to the next; [`compile`] is all of them on one screen, goal by goal.
 //!
 //! | from | by | to |
 //! |---|---|---|

@@ -6,11 +6,10 @@
 //! compares itself with). Prints a table, one line for each energy and view as it goes. The conic form is in it next to the
 //! quadratic one, which it equals in everything but time.
 
-#[path = "../thickness/measure.rs"]
-mod measure;
-
 use pillarforest::diag::Diagnostic;
-use pillarforest::scene::{self, Scene};
+use pillarforest::figures::measure::{changed, mapped, relief_errors};
+use pillarforest::report::NormalError;
+use pillarforest::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -29,13 +28,13 @@ const ENERGIES: [&str; 9] = [
 ];
 
 /// What the command line asks for.
-struct Wishes {
+struct Asked {
     scene: PathBuf,
     models: Option<PathBuf>,
     energies: Vec<String>,
 }
 
-impl Wishes {
+impl Asked {
     fn read(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
         let mut wishes = Self {
             scene: PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes/plate.ron"),
@@ -63,7 +62,7 @@ impl Wishes {
 }
 
 fn main() -> ExitCode {
-    match Wishes::read(env::args().skip(1)).and_then(|wishes| run(&wishes)) {
+    match Asked::read(env::args().skip(1)).and_then(|wishes| run(&wishes)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(what) => {
             eprintln!("error: {what}");
@@ -72,19 +71,19 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(wishes: &Wishes) -> Result<(), String> {
+fn run(wishes: &Asked) -> Result<(), String> {
     let text = fs::read_to_string(&wishes.scene)
         .map_err(|e| format!("{}: {e}", wishes.scene.display()))?;
     println!("| energy | view | seconds | mean | median | 90 % below |");
     println!("|---|---|---|---|---|---|");
     for energy in &wishes.energies {
         let scene = resolved(&text, wishes, energy)?;
-        for (view, seen) in scene.views.iter().zip(measure::seen(&scene)?) {
+        for (view, seen) in scene.views.iter().zip(mapped(&scene)?) {
             let start = Instant::now();
-            let errors = measure::errors(&scene, view, &seen);
+            let errors = relief_errors(&scene, view, &seen);
             let seconds = start.elapsed().as_secs_f64();
             match errors {
-                Ok([mean, median, p90]) => println!(
+                Ok(NormalError { mean, median, p90 }) => println!(
                     "| `{energy}` | {} | {seconds:.2} | {mean:.2} | {median:.2} | {p90:.2} |",
                     view.name
                 ),
@@ -99,15 +98,12 @@ fn run(wishes: &Wishes) -> Result<(), String> {
 }
 
 /// The scene with this energy.
-fn resolved(text: &str, wishes: &Wishes, energy: &str) -> Result<Scene, String> {
-    let text = scene::set(text, &format!("energy={energy}")).map_err(|d| d.message)?;
+fn resolved(text: &str, wishes: &Asked, energy: &str) -> Result<Scene, String> {
     let beside = wishes.scene.parent().unwrap_or(Path::new("."));
     let folder = wishes.models.as_deref().unwrap_or(beside);
     let read = |file: &str| {
         let path = folder.join(file);
         fs::read(&path).map_err(|e| Diagnostic::error(format!("{}: {e}", path.display())))
     };
-    scene::resolve(&text, &read)
-        .map(|done| done.value)
-        .map_err(|problems| measure::told(&problems))
+    changed(text, &[format!("energy={energy}")], &read)
 }

@@ -11,14 +11,14 @@
 //! The errors are those of the reliefs, before solids are made of them. Layers are parted 5 : 2 before and behind as the
 //! default of 7 mm is, with 0.5 mm of pillar behind them: 12 mm then just fit the forest's pillars of 8 mm.
 
-mod measure;
 mod plot;
 mod rows;
 
-use measure::Seen;
 use pillarforest::diag::Diagnostic;
-use pillarforest::scene::{self, Scene};
-use rows::{Row, Rows};
+use pillarforest::figures::measure::{MappedView, changed, mapped, relief_errors};
+use pillarforest::report::NormalError;
+use pillarforest::scene::Scene;
+use rows::{Measured, Rows};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -29,7 +29,7 @@ const THICKNESSES: [f64; 5] = [1.0, 2.0, 4.0, 7.0, 12.0];
 const FRONT_SHARE: f64 = 5.0 / 7.0;
 
 /// A scene to measure.
-struct Subject {
+struct Compared {
     /// File name in `scenes/` without ending.
     scene: &'static str,
     title: &'static str,
@@ -37,13 +37,13 @@ struct Subject {
     bundled: bool,
 }
 
-const SUBJECTS: [Subject; 2] = [
-    Subject {
+const SUBJECTS: [Compared; 2] = [
+    Compared {
         scene: "reference-forest",
         title: "Forest: four scans on 27 pillars of 8 mm",
         bundled: false,
     },
-    Subject {
+    Compared {
         scene: "plate",
         title: "Plate: one hare on 90 x 84 mm",
         bundled: true,
@@ -51,7 +51,7 @@ const SUBJECTS: [Subject; 2] = [
 ];
 
 /// A kind of surface.
-struct Surface {
+struct SurfaceKind {
     name: &'static str,
     /// As the scene language writes it.
     energy: &'static str,
@@ -59,23 +59,23 @@ struct Surface {
     colour: [u8; 3],
 }
 
-const SURFACES: [Surface; 4] = [
-    Surface {
+const SURFACES: [SurfaceKind; 4] = [
+    SurfaceKind {
         name: "curvature",
         energy: "Curvature()",
         colour: [0x6F, 0x73, 0x78],
     },
-    Surface {
+    SurfaceKind {
         name: "normal",
         energy: "Normal(steps: Never)",
         colour: [0x00, 0x9E, 0x73],
     },
-    Surface {
+    SurfaceKind {
         name: "reweighted",
         energy: "Normal(steps: Never, reweight: 5)",
         colour: [0x00, 0x72, 0xB2],
     },
-    Surface {
+    SurfaceKind {
         name: "torn",
         energy: "Normal(steps: Allowed())",
         colour: [0xD5, 0x5E, 0x00],
@@ -153,8 +153,8 @@ fn run(wishes: &Wishes) -> Result<(), String> {
 }
 
 /// Computes what is wanted of one scene, thick layers first.
-fn measure_subject(subject: &Subject, wishes: &Wishes, rows: &mut Rows) -> Result<(), String> {
-    let mut seen: Option<Vec<Seen>> = None;
+fn measure_subject(subject: &Compared, wishes: &Wishes, rows: &mut Rows) -> Result<(), String> {
+    let mut seen: Option<Vec<MappedView>> = None;
     for surface in &SURFACES {
         for mm in THICKNESSES.into_iter().rev() {
             if !wishes.wants(surface.name, mm, rows.complete(subject.scene, surface, mm)) {
@@ -168,7 +168,7 @@ fn measure_subject(subject: &Subject, wishes: &Wishes, rows: &mut Rows) -> Resul
             // What the eye sees does not depend on the layer.
             let seen = match &seen {
                 Some(seen) => seen,
-                None => seen.insert(measure::seen(&scene)?),
+                None => seen.insert(mapped(&scene)?),
             };
             measure_views(subject, surface, mm, &scene, seen, rows)?;
         }
@@ -178,24 +178,24 @@ fn measure_subject(subject: &Subject, wishes: &Wishes, rows: &mut Rows) -> Resul
 
 /// One surface in one layer: a line for every view and one for all of them.
 fn measure_views(
-    subject: &Subject,
-    surface: &Surface,
+    subject: &Compared,
+    surface: &SurfaceKind,
     mm: f64,
     scene: &Scene,
-    seen: &[Seen],
+    seen: &[MappedView],
     rows: &mut Rows,
 ) -> Result<(), String> {
     for (view, seen) in scene.views.iter().zip(seen) {
-        let mut row = Row {
+        let mut row = Measured {
             scene: subject.scene.into(),
             surface: surface.name.into(),
             mm,
             view: view.name.clone(),
             errors: [f64::NAN; 3],
         };
-        match measure::errors(scene, view, seen) {
-            Ok(errors) => {
-                row.errors = errors;
+        match relief_errors(scene, view, seen) {
+            Ok(NormalError { mean, median, p90 }) => {
+                row.errors = [mean, median, p90];
                 println!("{row}");
                 rows.put(row, scene.views.len())?;
             }
@@ -218,8 +218,8 @@ fn measure_views(
 
 /// The scene with this energy and this layer.
 fn resolved(
-    subject: &Subject,
-    surface: &Surface,
+    subject: &Compared,
+    surface: &SurfaceKind,
     mm: f64,
     models: Option<&Path>,
 ) -> Result<Scene, String> {
@@ -233,14 +233,10 @@ fn resolved(
         format!("depth.back={:.6}", mm - front),
         "depth.core=0.5".to_owned(),
     ];
-    let set = |text: String, setting: &String| scene::set(&text, setting);
-    let text = settings.iter().try_fold(text, set).map_err(|d| d.message)?;
     let models = models.filter(|_| !subject.bundled).unwrap_or(&folder);
     let read = |file: &str| {
         let path = models.join(file);
         fs::read(&path).map_err(|e| Diagnostic::error(format!("{}: {e}", path.display())))
     };
-    scene::resolve(&text, &read)
-        .map(|done| done.value)
-        .map_err(|problems| measure::told(&problems))
+    changed(&text, &settings, &read)
 }

@@ -1,7 +1,7 @@
 //! The plot: one panel a scene, thickness and error on logarithmic axes, a line for every surface.
 
 use crate::rows::Rows;
-use crate::{SUBJECTS, SURFACES, Subject, THICKNESSES};
+use crate::{Compared, SUBJECTS, SURFACES, THICKNESSES};
 use glam::DVec2;
 use pillarforest::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
 use pillarforest::diagram::lettering::Face;
@@ -16,7 +16,7 @@ const LENGTH: f64 = 470.0;
 const TOP: f64 = 120.0;
 const BOTTOM: f64 = 520.0;
 
-/// Errors that may have a line across, degrees.
+/// ErrorAxis that may have a line across, degrees.
 const TICKS: [f64; 9] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 50.0];
 
 const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
@@ -39,12 +39,12 @@ fn style(ink: Ink, anchor: Anchor) -> TextStyle {
 }
 
 /// The logarithmic axis of errors from one tick to another.
-struct Errors {
+struct ErrorAxis {
     low: f64,
     high: f64,
 }
 
-impl Errors {
+impl ErrorAxis {
     /// The ticks around all figures.
     fn around(rows: &Rows) -> Self {
         let figures: Vec<f64> = SUBJECTS
@@ -74,7 +74,7 @@ fn x(mm: f64) -> f64 {
 }
 
 /// For every surface its thicknesses and errors.
-fn lines(rows: &Rows, subject: &Subject) -> Vec<Vec<(f64, f64)>> {
+fn lines(rows: &Rows, subject: &Compared) -> Vec<Vec<(f64, f64)>> {
     let point = |surface: &str, mm: f64| Some((mm, rows.average(subject.scene, surface, mm)?[0]));
     let line = |name| {
         THICKNESSES
@@ -88,7 +88,7 @@ fn lines(rows: &Rows, subject: &Subject) -> Vec<Vec<(f64, f64)>> {
 /// Draws all rows.
 pub fn plot(rows: &Rows) -> Drawing {
     let mut drawing = Drawing::new(DVec2::new(f64::from(WIDTH), HEIGHT));
-    let errors = Errors::around(rows);
+    let errors = ErrorAxis::around(rows);
     let heading = TextStyle {
         size: 26.0,
         ..style(TEXT, Anchor::Start)
@@ -117,7 +117,7 @@ pub fn plot(rows: &Rows) -> Drawing {
 }
 
 /// Lines across with their errors, thicknesses below.
-fn axes(drawing: &mut Drawing, errors: &Errors, left: f64, title: &str) {
+fn axes(drawing: &mut Drawing, errors: &ErrorAxis, left: f64, title: &str) {
     let bold = TextStyle {
         face: Face::Bold,
         ..style(TEXT, Anchor::Start)
@@ -149,7 +149,7 @@ fn axes(drawing: &mut Drawing, errors: &Errors, left: f64, title: &str) {
 }
 
 /// Names of the surfaces beside the right ends of their lines, moved apart where they would touch.
-fn labels(drawing: &mut Drawing, errors: &Errors, left: f64, lines: &[Vec<(f64, f64)>]) {
+fn labels(drawing: &mut Drawing, errors: &ErrorAxis, left: f64, lines: &[Vec<(f64, f64)>]) {
     let ends = SURFACES
         .iter()
         .zip(lines)

@@ -1,7 +1,6 @@
 //! Measured figures, kept in a text file between runs.
 
-use crate::measure::Errors;
-use crate::{SUBJECTS, SURFACES, Surface, THICKNESSES};
+use crate::{SUBJECTS, SURFACES, SurfaceKind, THICKNESSES};
 use std::fmt;
 use std::fs;
 use std::io::ErrorKind;
@@ -9,9 +8,12 @@ use std::path::{Path, PathBuf};
 
 const HEAD: &str = "scene,surface,layer_mm,view,views,mean_deg,median_deg,p90_deg";
 
+/// Errors of the normals in degrees: mean, median, and what 90 % lie below.
+type Errors = [f64; 3];
+
 /// One view with one surface in one layer.
 #[derive(Clone)]
-pub struct Row {
+pub struct Measured {
     pub scene: String,
     pub surface: String,
     pub mm: f64,
@@ -19,14 +21,14 @@ pub struct Row {
     pub errors: Errors,
 }
 
-impl Row {
+impl Measured {
     fn key(&self) -> (&str, &str, f64, &str) {
         (&self.scene, &self.surface, self.mm, &self.view)
     }
 }
 
 /// A line of a Markdown table.
-impl fmt::Display for Row {
+impl fmt::Display for Measured {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self {
             scene,
@@ -45,7 +47,7 @@ impl fmt::Display for Row {
 /// All rows, each with the number of views its scene has; in the order of the tables.
 pub struct Rows {
     path: Option<PathBuf>,
-    rows: Vec<(Row, usize)>,
+    rows: Vec<(Measured, usize)>,
 }
 
 impl Rows {
@@ -65,7 +67,7 @@ impl Rows {
     }
 
     /// Adds a row in place of an earlier one, and saves all.
-    pub fn put(&mut self, row: Row, views: usize) -> Result<(), String> {
+    pub fn put(&mut self, row: Measured, views: usize) -> Result<(), String> {
         self.forget(&row);
         self.rows.push((row, views));
         self.rows.sort_by_key(|(r, _)| {
@@ -78,12 +80,12 @@ impl Rows {
     }
 
     /// Takes a row out that holds no longer, and saves the others.
-    pub fn drop(&mut self, row: &Row) -> Result<(), String> {
+    pub fn drop(&mut self, row: &Measured) -> Result<(), String> {
         self.forget(row);
         self.save()
     }
 
-    fn forget(&mut self, row: &Row) {
+    fn forget(&mut self, row: &Measured) {
         self.rows.retain(|(r, _)| r.key() != row.key());
     }
 
@@ -100,13 +102,13 @@ impl Rows {
         fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
     }
 
-    fn of(&self, scene: &str, surface: &str, mm: f64) -> Vec<&(Row, usize)> {
-        let same = |r: &Row| r.scene == scene && r.surface == surface && r.mm == mm;
+    fn of(&self, scene: &str, surface: &str, mm: f64) -> Vec<&(Measured, usize)> {
+        let same = |r: &Measured| r.scene == scene && r.surface == surface && r.mm == mm;
         self.rows.iter().filter(|(r, _)| same(r)).collect()
     }
 
     /// Whether every view is there.
-    pub fn complete(&self, scene: &str, surface: &Surface, mm: f64) -> bool {
+    pub fn complete(&self, scene: &str, surface: &SurfaceKind, mm: f64) -> bool {
         self.average(scene, surface.name, mm).is_some()
     }
 
@@ -143,12 +145,12 @@ impl Rows {
     }
 }
 
-fn parse(line: &str) -> Option<(Row, usize)> {
+fn parse(line: &str) -> Option<(Measured, usize)> {
     let words: Vec<&str> = line.split(',').collect();
     let [scene, surface, mm, view, views, mean, median, p90] = words[..] else {
         return None;
     };
-    let row = Row {
+    let row = Measured {
         scene: scene.into(),
         surface: surface.into(),
         mm: mm.parse().ok()?,

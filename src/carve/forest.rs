@@ -2,7 +2,7 @@
 
 use super::boolean::BooleanError;
 use crate::index::CellId;
-use crate::ladder::Rung;
+use crate::ladder::Ladder;
 use crate::mesh::{Defect, Solid};
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub struct Forest {
     /// What had to be changed on the way.
     pub repairs: Repairs,
     /// Which rungs of its ladders held.
-    pub rungs: Vec<Rung>,
+    pub ladders: Vec<Ladder>,
 }
 
 /// What had to be changed to make the solids sound.

@@ -2,7 +2,7 @@
 
 use super::boolean::Boolean;
 use super::forest::CarveError;
-use crate::ladder::{Ladder, Rung};
+use crate::ladder::Ladder;
 use crate::mesh::{Mended, Solid, mend, without_cavities};
 
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
@@ -14,7 +14,7 @@ const TOLERANCES_MM: [f64; 3] = [1e-4, 0.0, 5e-4];
 /// A checked solid, and which rungs of its ladders held.
 pub struct Sound {
     pub solid: Solid,
-    pub rungs: [Rung; 2],
+    pub ladders: [Ladder; 2],
 }
 
 /// The result of booleans as a checked solid, simplified and mended.
@@ -33,17 +33,11 @@ pub fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
         let Mended { mesh, rung } = mend(&mesh);
         match Solid::new(without_cavities(mesh)) {
             Ok(solid) => {
-                let rung_of = |ladder, held, of| Rung {
-                    ladder,
-                    place: place.to_owned(),
-                    held,
-                    of,
-                };
                 return Ok(Sound {
                     solid,
-                    rungs: [
-                        rung_of(Ladder::Simplifying, held, TOLERANCES_MM.len()),
-                        rung_of(Ladder::Mending, rung, Mended::RUNGS),
+                    ladders: [
+                        Ladder::new("tolerance of simplifying", Some(place), held, TOLERANCES_MM.len()),
+                        Ladder::new("height of slivers dissolved", Some(place), rung, Mended::RUNGS),
                     ],
                 });
             }

@@ -7,7 +7,7 @@ use super::operand::Operand;
 use super::piece::Piece;
 use super::sound::{CRUMB_MM3, Sound, sound};
 use crate::index::{CellId, SupportId, ViewId};
-use crate::ladder::{Ladder, Rung};
+use crate::ladder::Ladder;
 use crate::mesh::Solid;
 use crate::support::{Slab, Support};
 use crate::viewmap::SupportField;
@@ -70,7 +70,7 @@ pub struct Carved {
     pub repairs: Repairs,
     /// Index into [`WIDTHS`].
     pub widths: usize,
-    pub rungs: Vec<Rung>,
+    pub ladders: Vec<Ladder>,
 }
 
 impl Carved {
@@ -97,12 +97,10 @@ pub fn carve_support(
         match carve_at(field, s, views, widths) {
             Ok(mut carved) => {
                 if has_widths {
-                    carved.rungs.push(Rung {
-                        ladder: Ladder::CarvingWidths,
-                        place: field.supports[s].name.clone(),
-                        held: widths,
-                        of: WIDTHS.len(),
-                    });
+                    let place = Some(field.supports[s].name.as_str());
+                    carved
+                        .ladders
+                        .push(Ladder::new("widths of carving", place, widths, WIDTHS.len()));
                 }
                 return Ok(carved);
             }
@@ -237,9 +235,9 @@ impl<'a> Work<'a> {
 
     fn checked(self, whole: &Boolean, widths: usize) -> Result<Carved, CarveError> {
         let place = |what: &str| format!("{} ({what})", self.support.name);
-        let mut rungs = Vec::new();
+        let mut ladders = Vec::new();
         let mut told = |sound: Sound| {
-            rungs.extend(sound.rungs);
+            ladders.extend(sound.ladders);
             sound.solid
         };
         let mut blocks = Vec::new();
@@ -266,7 +264,7 @@ impl<'a> Work<'a> {
             given_up: self.given_up,
             repairs: self.repairs,
             widths,
-            rungs,
+            ladders,
         })
     }
 }

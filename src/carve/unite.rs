@@ -6,7 +6,7 @@ use super::operand::Operand;
 use super::sound::{Sound, sound};
 use super::support::{Carved, WIDTHS, carve_support};
 use crate::index::{SupportId, ViewId};
-use crate::ladder::{Ladder, Rung};
+use crate::ladder::Ladder;
 use crate::mesh::Solid;
 use crate::viewmap::SupportField;
 use rayon::prelude::*;
@@ -32,12 +32,9 @@ pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveErr
     for held in 0..unions {
         let error = match unite(&carved, &names) {
             Ok(mut forest) => {
-                forest.rungs.push(Rung {
-                    ladder: Ladder::Unions,
-                    place: "the forest".into(),
-                    held,
-                    of: unions,
-                });
+                forest
+                    .ladders
+                    .push(Ladder::new("union of all supports", None, held, unions));
                 return Ok(forest);
             }
             Err(error) if held + 1 == unions => return Err(error),
@@ -78,12 +75,12 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
             )
         },
     );
-    let mut rungs: Vec<Rung> = carved
+    let mut ladders: Vec<Ladder> = carved
         .iter()
-        .flat_map(|c| c.rungs.iter().cloned())
+        .flat_map(|c| c.ladders.iter().cloned())
         .collect();
     let mut told = |sound: Sound| {
-        rungs.extend(sound.rungs);
+        ladders.extend(sound.ladders);
         sound.solid
     };
     let whole = told(whole?.unwrap_or_else(|| unreachable!("a scene has supports")));
@@ -101,7 +98,7 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
         given_up,
         standing: carved.iter().map(|c| c.whole.clone()).collect(),
         repairs,
-        rungs,
+        ladders,
     })
 }
 

@@ -34,7 +34,7 @@ use crate::render::{angle_deg, framing};
 use crate::view::View;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Angles from the view's eye, degrees.
 pub const ANGLES_DEG: [f64; 15] = [
@@ -49,7 +49,7 @@ const STEEPEST_DEG: f64 = 85.0;
 const SIDE: usize = 72;
 
 /// What is left of a view's likeness at one angle from its eye.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CurvePoint {
     pub angle_deg: f64,
     /// From the most telling eye at that angle, and its factors.
@@ -61,7 +61,7 @@ pub struct CurvePoint {
 }
 
 /// The camouflage of one view.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Camouflage {
     pub view: String,
     /// Where the likeness has fallen to half of what the view's eye sees; none if it never does.
@@ -76,7 +76,7 @@ pub struct Camouflage {
 /// Measures one view. No eye stands below `floor` (mm) but the view's own and those at its height.
 pub fn camouflage(view: &View, forest: &TriMesh, forest_bvh: &Bvh, floor: f64) -> Camouflage {
     let target = view.target();
-    let pair = Pair {
+    let pair = Comparison {
         target: &target,
         target_bvh: &Bvh::new(&target),
         forest,
@@ -87,7 +87,7 @@ pub fn camouflage(view: &View, forest: &TriMesh, forest_bvh: &Bvh, floor: f64) -
         .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0);
     let rings = rings(view.eye, middle, floor);
     let eyes: Vec<DVec3> = rings.iter().flat_map(|r| r.eyes()).collect();
-    let seen: Vec<Likeness> = eyes
+    let seen: Vec<Resemblance> = eyes
         .par_iter()
         .map(|eye| pair.likeness(*eye, middle))
         .collect();
@@ -133,14 +133,17 @@ impl Ring {
     }
 
     /// `seen` by the ring's eyes, in their order.
-    fn point(&self, seen: &[Likeness]) -> CurvePoint {
-        let best = seen.iter().copied().fold(Likeness::default(), |best, s| {
-            if s.product() > best.product() {
-                s
-            } else {
-                best
-            }
-        });
+    fn point(&self, seen: &[Resemblance]) -> CurvePoint {
+        let best = seen
+            .iter()
+            .copied()
+            .fold(Resemblance::default(), |best, s| {
+                if s.product() > best.product() {
+                    s
+                } else {
+                    best
+                }
+            });
         let level = &seen[..self.level.len()];
         CurvePoint {
             angle_deg: self.angle_deg,
@@ -192,28 +195,28 @@ fn rings(eye: DVec3, middle: DVec3, floor: f64) -> Vec<Ring> {
 
 /// What one eye sees.
 #[derive(Clone, Copy, Debug, Default)]
-struct Likeness {
+struct Resemblance {
     agreement: f64,
     overlap: f64,
     mean_error_deg: f64,
 }
 
-impl Likeness {
+impl Resemblance {
     fn product(&self) -> f64 {
         self.agreement * self.overlap
     }
 }
 
 /// Target and forest, ready for rays.
-struct Pair<'a> {
+struct Comparison<'a> {
     target: &'a TriMesh,
     target_bvh: &'a Bvh,
     forest: &'a TriMesh,
     forest_bvh: &'a Bvh,
 }
 
-impl Pair<'_> {
-    fn likeness(&self, eye: DVec3, middle: DVec3) -> Likeness {
+impl Comparison<'_> {
+    fn likeness(&self, eye: DVec3, middle: DVec3) -> Resemblance {
         let (plane, half) = framing(eye, self.target, middle);
         let side = SIDE as f64;
         let (mut wanted, mut both, mut either) = (0usize, 0usize, 0usize);
@@ -237,7 +240,7 @@ impl Pair<'_> {
             agreement += (1.0 - deg / 90.0).max(0.0);
         }
         let share = |sum: f64, of: usize| if of > 0 { sum / of as f64 } else { 0.0 };
-        Likeness {
+        Resemblance {
             agreement: share(agreement, wanted),
             overlap: share(both as f64, either),
             mean_error_deg: share(error, wanted),

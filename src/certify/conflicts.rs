@@ -7,16 +7,17 @@
 //!
 //! Cells are sampled in equal parts, so a thing in the way counts to within a part of a cell: half a millimetre at most.
 
-use super::Seen;
+use super::point::without_minus_zero;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
-use crate::diag::Diagnostic;
 use crate::geom::SQUARE_ARCMIN;
+use crate::index::{CellId, SupportId, ViewId};
 use crate::relief::Relief;
+use crate::sight::Sight;
 use crate::viewmap::SupportField;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A ray that meets the solid nearer than this to the plane of its cell's relief meets the relief, millimetres. Rounding to
 /// f32, mending and levelled steps leave 0.02 mm on real builds; anything that could be seen stands out by far more.
@@ -37,7 +38,7 @@ const AROUND: usize = 8;
 const SHARES: [f64; 3] = [0.25, 0.5, 1.0];
 
 /// What is wrong with a ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trouble {
     /// Something stands before the relief.
@@ -47,7 +48,7 @@ pub enum Trouble {
 }
 
 /// Rays of one kind that are disturbed by one thing.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Disturbance {
     pub trouble: Trouble,
     /// The view whose relief stands in the way; none if a bare support does.
@@ -103,59 +104,40 @@ impl<'a> Finished<'a> {
     }
 }
 
-impl Sighted {
-    /// Warnings of what is listed.
-    pub fn warnings(&self, view: &str) -> Vec<Diagnostic> {
-        let told = |d: &Disturbance| {
-            let support = d.support.as_deref().unwrap_or("nothing known");
-            let [x, y, z] = d.place_mm;
-            let what = match (d.trouble, &d.with_view) {
-                (Trouble::Missing, _) => format!("misses its relief on {support}"),
-                (_, Some(other)) => {
-                    format!("has the relief of view \"{other}\" on {support} before its own")
-                }
-                (_, None) => format!("has {support} before its relief"),
-            };
-            Diagnostic::warning(format!(
-                "view \"{view}\" {what} over {:.1} square arc-minutes, mostly near ({x:.1}, {y:.1}, {z:.1}) mm",
-                d.arcmin2
-            ))
-            .help("move pillars apart there, or make their layers thinner")
-        };
-        self.disturbances.iter().map(told).collect()
-    }
-}
+/// What befell a ray, the view whose relief it met, and the support it concerns.
+type TroubleKind = (Trouble, Option<ViewId>, Option<SupportId>);
 
 /// A ray that did not meet the relief.
 struct Miss {
-    cell: u32,
+    cell: CellId,
     sr: f64,
     /// `None`: the view's own relief, nearer than planned.
-    kind: Option<(Trouble, Option<u32>, Option<u32>)>,
+    kind: Option<TroubleKind>,
     place: DVec3,
 }
 
 /// Casts rays through all of a view's cells that carry a relief, but for those `given_up` (rising) by the solids. `own` is the
 /// view's index.
 pub fn sighted(
-    seen: &Seen,
-    own: usize,
+    sight: &Sight,
+    own: ViewId,
     relief: &Relief,
-    given_up: &[u32],
+    given_up: &[CellId],
     finished: &Finished,
 ) -> Sighted {
-    let cells: Vec<Cell> = (relief.depth.iter().enumerate())
-        .filter(|(c, _)| given_up.binary_search(&(*c as u32)).is_err())
-        .filter_map(|(c, depth)| Some(Cell::new(seen, c, (*depth)?)))
+    let cells: Vec<SampledCell> = CellId::all(relief.depth.len())
+        .zip(&relief.depth)
+        .filter(|(c, _)| given_up.binary_search(c).is_err())
+        .filter_map(|(c, depth)| Some(SampledCell::new(sight, c, (*depth)?)))
         .collect();
     let misses: Vec<Miss> = cells
         .par_iter()
-        .flat_map_iter(|cell| cell.misses(seen, own, finished))
+        .flat_map_iter(|cell| cell.misses(sight, own, finished))
         .collect();
     let mut found = gathered(&misses, finished);
-    let seen_sr: f64 = (seen.map.cells.iter().enumerate())
+    let seen_sr: f64 = (sight.image.map.all())
         .filter(|(_, cell)| cell.face.is_some())
-        .map(|(c, _)| seen.map.solid_angle(c))
+        .map(|(c, _)| sight.image.map.solid_angle(c))
         .sum();
     let least = DISTURBED_SHARE * seen_sr * SQUARE_ARCMIN;
     let small = found.disturbances.extract_if(.., |d| d.arcmin2 < least);
@@ -164,12 +146,12 @@ pub fn sighted(
     found.rays = cells.iter().map(|c| c.parts * c.parts).sum();
     let of_model = |faces: std::ops::Range<usize>| {
         let lost = misses.iter().filter(|m| {
-            let face = seen.map.cells[m.cell as usize].face;
-            m.kind.is_some() && face.is_some_and(|f| faces.contains(&(f as usize)))
+            let face = sight.image.map.cells[m.cell].face;
+            m.kind.is_some() && face.is_some_and(|f| faces.contains(&f.at()))
         });
         lost.map(|m| m.sr).sum()
     };
-    found.lost_sr = seen.models().map(|(_, faces)| of_model(faces)).collect();
+    found.lost_sr = sight.models().map(|(_, faces)| of_model(faces)).collect();
     found
 }
 
@@ -188,10 +170,10 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
             .fold(group[0], |w, m| if m.sr > w.sr { m } else { w });
         disturbances.push(Disturbance {
             trouble,
-            with_view: view.map(|v| finished.names[v as usize].to_owned()),
-            support: support.map(|s| finished.field.supports[s as usize].name.clone()),
+            with_view: view.map(|v| finished.names[v].to_owned()),
+            support: support.map(|s| finished.field.supports[s].name.clone()),
             arcmin2: group.iter().map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN,
-            place_mm: (widest.place + 0.0).to_array(),
+            place_mm: without_minus_zero(widest.place),
         });
     }
     let filled = misses.iter().filter(|m| m.kind.is_none());
@@ -203,8 +185,8 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
 }
 
 /// A cell with its relief.
-struct Cell {
-    index: u32,
+struct SampledCell {
+    index: CellId,
     corners: [DVec2; 3],
     /// `1 / depth` at the corners: affine in the image.
     inverse: [f64; 3],
@@ -214,13 +196,13 @@ struct Cell {
     parts: usize,
 }
 
-impl Cell {
-    fn new(seen: &Seen, c: usize, depth: [f64; 3]) -> Self {
-        let corners = seen.map.triangle(c);
-        let [p, q, r] = [0, 1, 2].map(|k| seen.map.plane.point(corners[k], depth[k]));
+impl SampledCell {
+    fn new(sight: &Sight, c: CellId, depth: [f64; 3]) -> Self {
+        let corners = sight.image.map.triangle(c);
+        let [p, q, r] = [0, 1, 2].map(|k| sight.image.map.plane.point(corners[k], depth[k]));
         let longest = p.distance(q).max(q.distance(r)).max(r.distance(p));
         Self {
-            index: c as u32,
+            index: c,
             corners,
             inverse: depth.map(|z| 1.0 / z),
             normal: (q - p).cross(r - p).normalize_or_zero(),
@@ -247,13 +229,13 @@ impl Cell {
         1.0 / (0..3).map(|k| weights[k] * self.inverse[k]).sum::<f64>()
     }
 
-    fn misses(&self, seen: &Seen, own: usize, finished: &Finished) -> Vec<Miss> {
-        let sr = seen.map.solid_angle(self.index as usize) / (self.parts * self.parts) as f64;
+    fn misses(&self, sight: &Sight, own: ViewId, finished: &Finished) -> Vec<Miss> {
+        let sr = sight.image.map.solid_angle(self.index) / (self.parts * self.parts) as f64;
         self.samples()
             .filter_map(|weights| {
                 let q = (0..3).map(|k| weights[k] * self.corners[k]).sum();
                 let wanted = self.depth(weights);
-                let (kind, place) = self.trouble(seen, own, finished, q, wanted)?;
+                let (kind, place) = self.trouble(sight, own, finished, q, wanted)?;
                 Some(Miss {
                     cell: self.index,
                     sr,
@@ -265,26 +247,25 @@ impl Cell {
     }
 
     /// What is wrong with the ray `q`, on which the relief has depth `wanted`, and where; `None` if nothing is.
-    #[allow(clippy::type_complexity)] // the field of a Miss
     fn trouble(
         &self,
-        seen: &Seen,
-        own: usize,
+        sight: &Sight,
+        own: ViewId,
         finished: &Finished,
         q: DVec2,
         wanted: f64,
-    ) -> Option<(Option<(Trouble, Option<u32>, Option<u32>)>, DVec3)> {
-        let plane = seen.map.plane;
+    ) -> Option<(Option<TroubleKind>, DVec3)> {
+        let plane = sight.image.map.plane;
         let direction = plane.direction(q);
         let hit = finished
             .whole
             .first_hit(plane.eye, direction)
             .map_or(f64::INFINITY, |h| h.t);
-        if self.is_on(direction, hit, wanted) || self.is_seam(seen, finished, q, wanted) {
+        if self.is_on(direction, hit, wanted) || self.is_seam(sight, finished, q, wanted) {
             return None;
         }
         if hit > wanted {
-            let support = seen.map.cells[self.index as usize].support;
+            let support = sight.image.map.cells[self.index].support;
             let kind = (Trouble::Missing, None, support);
             return Some((Some(kind), plane.point(q, wanted)));
         }
@@ -293,15 +274,15 @@ impl Cell {
             let there = bvh.first_hit(plane.eye, direction);
             there.is_some_and(|h| (h.t - hit).abs() * direction.length() < SAME_MM)
         };
-        let shows = |v: usize| finished.reliefs[v].as_ref().is_some_and(same);
+        let shows = |v: ViewId| finished.reliefs[v].as_ref().is_some_and(same);
         if shows(own) {
             return Some((None, place));
         }
-        let view = (0..finished.reliefs.len()).find(|v| *v != own && shows(*v));
+        let view = ViewId::all(finished.reliefs.len()).find(|v| *v != own && shows(*v));
         // From just before the place: the first support is the one whose surface it is, or that it is carved into.
         let before = plane.point(q, hit - SAME_MM);
         let support = finished.field.first_hit(before, direction).map(|s| s.0);
-        let kind = (Trouble::Blocked, view.map(|v| v as u32), support);
+        let kind = (Trouble::Blocked, view, support);
         Some((Some(kind), place))
     }
 
@@ -310,8 +291,8 @@ impl Cell {
     }
 
     /// Whether a ray a hair beside `q` meets the relief.
-    fn is_seam(&self, seen: &Seen, finished: &Finished, q: DVec2, wanted: f64) -> bool {
-        let plane = seen.map.plane;
+    fn is_seam(&self, sight: &Sight, finished: &Finished, q: DVec2, wanted: f64) -> bool {
+        let plane = sight.image.map.plane;
         let [a, b, c] = self.corners;
         let ways = (0..AROUND).flat_map(|k| SHARES.map(|share| (k, share)));
         ways.into_iter().any(|(k, share)| {

@@ -4,20 +4,20 @@
 //! support or none) and every gap: a connected region of the image with a model and one cause why nothing carries it.
 //! Gaps of different causes meet at cells' sides: where no outline divides them, to within a cell.
 
-use super::Seen;
-use crate::diag::Diagnostic;
+use super::point::without_minus_zero;
 use crate::geom::SQUARE_ARCMIN;
 use crate::groups::anchor;
+use crate::index::{CellId, FaceId, SupportId, ViewId};
+use crate::sight::Sight;
 use crate::support::{Support, SupportKind};
-use crate::viewmap::SupportField;
 use glam::{DVec2, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Gaps below this share of the models are rounding at their outline: counted and summed, not listed.
 pub const GAP_SHARE: f64 = 1e-6;
 
 /// Why nothing shows the model in a gap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
     /// The rays pass no pillar at all.
@@ -33,7 +33,7 @@ pub enum Cause {
 }
 
 /// A connected region of the image with one cause.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
     /// Square arc-minutes.
     pub arcmin2: f64,
@@ -74,37 +74,47 @@ pub struct Coverage {
     pub small_gaps_arcmin2: f64,
 }
 
+/// All gaps of one cause.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CauseShare<'a> {
+    pub largest: &'a Gap,
+    /// All of them together, as a share of the models.
+    pub share: f64,
+}
+
 /// A cause with what it concerns, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Why {
     NoPillar,
-    TooShort(u32),
-    Owned { view: u32, support: u32 },
-    Hidden(u32),
-    Infeasible(u32),
+    TooShort(SupportId),
+    Owned { view: ViewId, support: SupportId },
+    Hidden(SupportId),
+    Infeasible(SupportId),
 }
 
 /// Coverage of a view; `views` are all views' names. `given_up` are cells (rising) that have a group but no relief in the
 /// finished solid.
-pub fn coverage(seen: &Seen, views: &[&str], field: &SupportField, given_up: &[u32]) -> Coverage {
+pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId]) -> Coverage {
+    let map = &sight.image.map;
+    let all = || CellId::all(map.cells.len());
     let carried =
-        |c: usize| seen.groups.of_cell[c].is_some() && given_up.binary_search(&(c as u32)).is_err();
-    let why: Vec<Option<Why>> = (0..seen.map.cells.len())
+        |c: CellId| sight.groups.of_cell[c].is_some() && given_up.binary_search(&c).is_err();
+    let why: Vec<Option<Why>> = all()
         .map(|c| {
-            let gap = seen.map.cells[c].face.is_some() && !carried(c);
-            gap.then(|| reason(seen, field, c))
+            let gap = map.cells[c].face.is_some() && !carried(c);
+            gap.then(|| reason(sight, c))
         })
         .collect();
-    let models = seen.models().map(|(name, faces)| {
-        let of_model = |c: &usize| {
-            seen.map.cells[*c]
+    let models = sight.models().map(|(name, faces)| {
+        let of_model = |c: &CellId| {
+            map.cells[*c]
                 .face
-                .is_some_and(|f| faces.contains(&(f as usize)))
+                .is_some_and(|f| faces.contains(&f.at()))
         };
-        let cells: Vec<usize> = (0..seen.map.cells.len()).filter(of_model).collect();
-        let sum = |keep: &dyn Fn(usize) -> bool| {
+        let cells: Vec<CellId> = all().filter(of_model).collect();
+        let sum = |keep: &dyn Fn(CellId) -> bool| {
             let kept = cells.iter().filter(|c| keep(**c));
-            kept.map(|c| seen.map.solid_angle(*c)).sum()
+            kept.map(|c| map.solid_angle(*c)).sum()
         };
         ModelCoverage {
             name: name.to_owned(),
@@ -119,8 +129,8 @@ pub fn coverage(seen: &Seen, views: &[&str], field: &SupportField, given_up: &[u
         small_gaps_arcmin2: 0.0,
     };
     let least = GAP_SHARE * found.solid_angle_sr() * SQUARE_ARCMIN;
-    for (why, cells) in regions(seen, &why) {
-        let gap = gap(seen, views, field, why, &cells);
+    for (why, cells) in regions(sight, &why) {
+        let gap = gap(sight, views, why, &cells);
         if gap.arcmin2 < least {
             found.small_gaps += 1;
             found.small_gaps_arcmin2 += gap.arcmin2;
@@ -144,87 +154,40 @@ impl Coverage {
         self.models.iter().map(|m| m.carried_sr).sum::<f64>() / self.solid_angle_sr()
     }
 
-    /// What is worth telling of a view's gaps: one warning for each cause.
-    pub fn warnings(&self, view: &str) -> Vec<Diagnostic> {
+    /// The gaps cause by cause, in the order of [`Cause`].
+    pub fn by_cause(&self) -> Vec<CauseShare<'_>> {
         let mut causes: Vec<Cause> = self.gaps.iter().map(|g| g.cause).collect();
         causes.sort_unstable();
         causes.dedup();
-        let whole = self.solid_angle_sr() * SQUARE_ARCMIN;
-        let told = causes.into_iter().map(|cause| {
-            let mut gaps = self.gaps.iter().filter(|g| g.cause == cause).peekable();
-            let largest = gaps.peek().map(|g| (*g).clone());
-            (largest, gaps.map(|g| g.arcmin2).sum::<f64>() / whole)
-        });
-        told.filter_map(|(largest, share)| Some(warning(view, &largest?, share)))
-            .collect()
+        let all = self.solid_angle_sr() * SQUARE_ARCMIN;
+        let share = |cause: Cause| {
+            let of_cause = || self.gaps.iter().filter(|g| g.cause == cause);
+            Some(CauseShare {
+                largest: of_cause().next()?,
+                share: of_cause().map(|g| g.arcmin2).sum::<f64>() / all,
+            })
+        };
+        causes.into_iter().filter_map(share).collect()
     }
 }
 
-/// The warning of all gaps of one cause, with the largest.
-fn warning(view: &str, gap: &Gap, share: f64) -> Diagnostic {
-    let support = gap.support.as_deref().unwrap_or_default();
-    let (reason, help) = match gap.cause {
-        Cause::NoPillar => (
-            "no pillar stands there".to_owned(),
-            "add a pillar there, or move the models".to_owned(),
-        ),
-        Cause::PillarTooShort => (
-            format!(
-                "{support} is too short by {:.2} mm",
-                gap.wanted_mm.unwrap_or(0.0)
-            ),
-            format!("raise {support} (`height`), or lower the models"),
-        ),
-        Cause::OtherView => (
-            format!(
-                "view \"{}\" needs {support}",
-                gap.view.as_deref().unwrap_or_default()
-            ),
-            "move pillars or models apart; `contested` says who gets what two views want"
-                .to_owned(),
-        ),
-        Cause::Hidden => (
-            format!("it meets {support}, which carries nothing for it"),
-            "put a pillar before it, or move the models".to_owned(),
-        ),
-        Cause::Infeasible => (
-            format!("no sound relief could be made on {support}"),
-            "thicker layers (`front`, `back`) make it easier".to_owned(),
-        ),
-    };
-    let side = |angle: f64, less: &str, more: &str| {
-        format!(
-            "{:.1} degrees {}",
-            angle.abs(),
-            if angle < 0.0 { less } else { more }
-        )
-    };
-    Diagnostic::warning(format!(
-        "view \"{view}\" misses {:.2} % of its models, mostly {} and {} its line of sight: {reason}",
-        100.0 * share,
-        side(gap.right_deg, "left of", "right of"),
-        side(gap.up_deg, "below", "above"),
-    ))
-    .help(help)
-}
-
 /// Connected cells with the same reason, by their first cell.
-fn regions(seen: &Seen, why: &[Option<Why>]) -> Vec<(Why, Vec<u32>)> {
+fn regions(sight: &Sight, why: &[Option<Why>]) -> Vec<(Why, Vec<CellId>)> {
     let mut done = vec![false; why.len()];
     let mut found = Vec::new();
-    for seed in 0..why.len() {
+    for seed in CellId::all(why.len()) {
         let Some(reason) = why[seed].filter(|_| !done[seed]) else {
             continue;
         };
-        let mut cells = vec![seed as u32];
+        let mut cells = vec![seed];
         done[seed] = true;
         let mut next = 0;
         while next < cells.len() {
-            let around = seen.map.neighbours[cells[next] as usize];
+            let around = sight.image.map.neighbours[cells[next]];
             next += 1;
             for n in around.into_iter().flatten() {
-                if !done[n as usize] && why[n as usize] == Some(reason) {
-                    done[n as usize] = true;
+                if !done[n] && why[n] == Some(reason) {
+                    done[n] = true;
                     cells.push(n);
                 }
             }
@@ -235,22 +198,23 @@ fn regions(seen: &Seen, why: &[Option<Why>]) -> Vec<(Why, Vec<u32>)> {
 }
 
 /// Why nothing carries the model in a cell, judged at its centre.
-fn reason(seen: &Seen, field: &SupportField, c: usize) -> Why {
-    if let Ok(i) = seen.lost.binary_search_by_key(&(c as u32), |l| l.cell) {
-        let (view, support) = (seen.lost[i].owner, seen.lost[i].support);
+fn reason(sight: &Sight, c: CellId) -> Why {
+    if let Ok(i) = sight.lost.binary_search_by_key(&c, |l| l.cell) {
+        let (view, support) = (sight.lost[i].owner, sight.lost[i].support);
         return Why::Owned { view, support };
     }
-    let cell = &seen.map.cells[c];
-    if let (Some(support), Some(_)) = (cell.support, seen.groups.of_cell[c]) {
+    let cell = &sight.image.map.cells[c];
+    if let (Some(support), Some(_)) = (cell.support, sight.groups.of_cell[c]) {
         return Why::Infeasible(support);
     }
-    let q = seen.map.points_mean(cell.corners);
-    let mut short: Option<(f64, u32)> = None;
-    for (s, support) in field.supports.iter().enumerate() {
-        let carries = seen.groups.slabs[s].is_some();
-        let height = missing_mm(seen, support, q, cell.support_depth).filter(|_| carries);
+    let q = sight.image.map.points_mean(cell.corners);
+    let mut short: Option<(f64, SupportId)> = None;
+    let supports = sight.image.field.supports;
+    for (s, support) in SupportId::all(supports.len()).zip(supports) {
+        let carries = sight.groups.slabs[s].is_some();
+        let height = missing_mm(sight, support, q, cell.support_depth).filter(|_| carries);
         if let Some(height) = height.filter(|h| short.is_none_or(|(least, _)| *h < least)) {
-            short = Some((height, s as u32));
+            short = Some((height, s));
         }
     }
     match (short, cell.support) {
@@ -262,11 +226,11 @@ fn reason(seen: &Seen, field: &SupportField, c: usize) -> Why {
 
 /// By how much an upright support would have to be higher for the ray `q` to meet it before depth `until`; `None` if the ray
 /// does not pass over it.
-fn missing_mm(seen: &Seen, support: &Support, q: DVec2, until: f64) -> Option<f64> {
+fn missing_mm(sight: &Sight, support: &Support, q: DVec2, until: f64) -> Option<f64> {
     let SupportKind::Pillar { profile, top, .. } = &support.kind else {
         return None;
     };
-    let (eye, direction) = (seen.map.plane.eye, seen.map.plane.direction(q));
+    let (eye, direction) = (sight.image.map.plane.eye, sight.image.map.plane.direction(q));
     let (enter, leave) = chord(profile, eye, direction)?;
     let leave = leave.min(until);
     let lowest = eye.z + direction.z * if direction.z < 0.0 { leave } else { enter };
@@ -289,22 +253,22 @@ fn chord(profile: &[DVec2], eye: DVec3, direction: DVec3) -> Option<(f64, f64)> 
     found
 }
 
-fn gap(seen: &Seen, views: &[&str], field: &SupportField, why: Why, cells: &[u32]) -> Gap {
-    let map = seen.map;
-    let size = |c: &u32| map.solid_angle(*c as usize);
-    let centre = |c: &u32| map.points_mean(map.cells[*c as usize].corners);
+fn gap(sight: &Sight, views: &[&str], why: Why, cells: &[CellId]) -> Gap {
+    let (map, supports) = (&sight.image.map, sight.image.field.supports);
+    let size = |c: &CellId| map.solid_angle(*c);
+    let centre = |c: &CellId| map.points_mean(map.cells[*c].corners);
     let whole: f64 = cells.iter().map(size).sum();
     let mean = cells.iter().map(|c| size(c) * centre(c)).sum::<DVec2>() / whole;
     // The cell nearest to the mean: the mean itself may lie outside of a bent gap.
     let middle = cells.iter().min_by(|a, b| {
-        let from_mean = |c: &u32| centre(c).distance_squared(mean);
+        let from_mean = |c: &CellId| centre(c).distance_squared(mean);
         from_mean(a).total_cmp(&from_mean(b))
     });
     let middle = *middle.unwrap_or(&cells[0]);
     let q = centre(&middle);
-    let face = map.cells[middle as usize].face.unwrap_or(0);
-    let depth = anchor(seen.target, face as usize, q).1;
-    let name = |s: u32| Some(field.supports[s as usize].name.clone());
+    let face = map.cells[middle].face.unwrap_or(FaceId(0));
+    let depth = anchor(&sight.image.target, face, q).1;
+    let name = |s: SupportId| Some(supports[s].name.clone());
     let (cause, support) = match why {
         Why::NoPillar => (Cause::NoPillar, None),
         Why::TooShort(s) => (Cause::PillarTooShort, name(s)),
@@ -314,29 +278,29 @@ fn gap(seen: &Seen, views: &[&str], field: &SupportField, why: Why, cells: &[u32
     };
     Gap {
         arcmin2: whole * SQUARE_ARCMIN,
-        place_mm: (map.plane.point(q, depth) + 0.0).to_array(),
+        place_mm: without_minus_zero(map.plane.point(q, depth)),
         right_deg: q.x.atan().to_degrees(),
         up_deg: q.y.atan().to_degrees(),
         cause,
         support,
         view: match why {
-            Why::Owned { view, .. } => Some(views[view as usize].to_owned()),
+            Why::Owned { view, .. } => Some(views[view].to_owned()),
             _ => None,
         },
         wanted_mm: match why {
-            Why::TooShort(s) => highest_missing(seen, &field.supports[s as usize], cells),
+            Why::TooShort(s) => highest_missing(sight, &supports[s], cells),
             _ => None,
         },
     }
 }
 
 /// The most that is missing over the corners and centres of cells.
-fn highest_missing(seen: &Seen, support: &Support, cells: &[u32]) -> Option<f64> {
+fn highest_missing(sight: &Sight, support: &Support, cells: &[CellId]) -> Option<f64> {
     let rays = cells.iter().flat_map(|c| {
-        let cell = &seen.map.cells[*c as usize];
-        let [a, b, d] = seen.map.triangle(*c as usize);
+        let cell = &sight.image.map.cells[*c];
+        let [a, b, d] = sight.image.map.triangle(*c);
         [a, b, d, (a + b + d) / 3.0].map(|q| (q, cell.support_depth))
     });
-    rays.filter_map(|(q, until)| missing_mm(seen, support, q, until))
+    rays.filter_map(|(q, until)| missing_mm(sight, support, q, until))
         .max_by(f64::total_cmp)
 }

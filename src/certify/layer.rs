@@ -18,12 +18,12 @@ pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
     let Sight { image, groups, .. } = sight;
     let map = &image.map;
     let mut worst = 0.0f64;
-    for (c, cell) in map.cells.iter().enumerate() {
-        let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
+    for (c, cell) in map.all() {
+        let slab = cell.support.and_then(|s| groups.slabs[s]);
         let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
             continue;
         };
-        let free = relief.free.get(c).copied().unwrap_or_default();
+        let free = relief.free.get(c.at()).copied().unwrap_or_default();
         let corners = map.triangle(c).into_iter().zip(depths).enumerate();
         for (k, (q, z)) in corners.filter(|(k, _)| !free[*k]) {
             let (near, far) = image.layer_in(&slab, c, k);
@@ -38,8 +38,8 @@ pub fn reach_mm(sight: &Sight, relief: &Relief) -> (f64, f64) {
     let Sight { image, groups, .. } = sight;
     let map = &image.map;
     let mut reach = (0.0f64, 0.0f64);
-    for (c, cell) in map.cells.iter().enumerate() {
-        let slab = cell.support.and_then(|s| groups.slabs[s as usize]);
+    for (c, cell) in map.all() {
+        let slab = cell.support.and_then(|s| groups.slabs[s]);
         let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
             continue;
         };
@@ -57,13 +57,13 @@ pub fn reach_mm(sight: &Sight, relief: &Relief) -> (f64, f64) {
 pub fn order_inversions(image: &Image, relief: &Relief) -> usize {
     let Image { map, target, .. } = image;
     let mut count = 0;
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         for k in 0..3 {
-            let Some(n) = map.neighbours[c][k].filter(|n| *n as usize > c) else {
+            let Some(n) = map.neighbours[c][k].filter(|n| *n > c) else {
                 continue;
             };
-            let other = &map.cells[n as usize];
-            let (Some(here), Some(there)) = (relief.depth[c], relief.depth[n as usize]) else {
+            let other = &map.cells[n];
+            let (Some(here), Some(there)) = (relief.depth[c], relief.depth[n]) else {
                 continue;
             };
             let (Some(f), Some(g)) = (cell.face, other.face) else {
@@ -77,8 +77,8 @@ pub fn order_inversions(image: &Image, relief: &Relief) -> usize {
                 let Some(j) = other.corners.iter().position(|x| *x == p) else {
                     continue;
                 };
-                let q = map.points[p as usize];
-                let [a, b] = [f, g].map(|f| anchor(target, f as usize, q).1);
+                let q = map.points[p];
+                let [a, b] = [f, g].map(|f| anchor(target, f, q).1);
                 let apart = (a - b).abs() > TOGETHER_MM;
                 let step = (here[end] - there[j]) * map.plane.direction(q).length();
                 count += usize::from(apart && step * (a - b) < -EQUAL_MM * (a - b).abs());

@@ -9,9 +9,9 @@ use super::progress::Reporter;
 use super::write::{self, Destination};
 use super::{figures, files};
 use clap::CommandFactory;
-use pillarforest::compile::{self, Build, Goal};
+use pillarforest::compile::{self, Build, Drawn, Progress, Stop};
 use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::scene;
+use pillarforest::scene::{self, Scene};
 use pillarforest::support::Support;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +34,7 @@ pub fn run(cli: &Cli) -> u8 {
                 scene.sets.push("output.split=true".into());
             }
             let errand = Errand {
-                goal: Goal::All,
+                goal: Goal::Forest,
                 output: output.as_deref(),
                 force: *force,
             };
@@ -112,37 +112,40 @@ fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
     ))
 }
 
-/// Runs the pipeline with progress. The error code has been explained to the user.
-fn compile(
+/// Runs one of the pipeline's goals with progress, and prints the `warnings` that it gives. The error code has been explained to the
+/// user.
+fn compile<T>(
     messages: &Messages,
     global: &Global,
     args: &SceneArgs,
     loaded: &Loaded,
-    goal: Goal,
-) -> Result<(Build, Reporter), u8> {
+    goal: impl FnOnce(&Scene, Progress, Stop) -> Result<T, Vec<Diagnostic>>,
+    warnings: impl FnOnce(&T) -> &[Diagnostic],
+) -> Result<(T, Reporter), u8> {
     let reporter = Reporter::new(global.quiet, global.verbose);
     let stop = loaded.time_is_up();
     let progress = |stage: &str, share| reporter.report(stage, share);
-    let result = compile::run(&loaded.scene, goal, &progress, &stop);
+    let result = goal(&loaded.scene, &progress, &stop);
     reporter.finish();
-    let build = result.map_err(|problems| loaded.failed(messages, &problems))?;
-    if messages.print(&build.warnings, Some(&loaded.source)) {
-        messages.closing(&build.warnings, NOTHING);
+    let done = result.map_err(|problems| loaded.failed(messages, &problems))?;
+    let warnings = warnings(&done);
+    if messages.print(warnings, Some(&loaded.source)) {
+        messages.closing(warnings, NOTHING);
         return Err(WRONG_INPUT);
     }
     if args.timings {
         reporter.tell(messages.is_json());
     }
-    Ok((build, reporter))
+    Ok((done, reporter))
 }
 
 fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
     let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
-    match compile(messages, global, args, &loaded, Goal::Check) {
+    match compile(messages, global, args, &loaded, compile::check, |w| w) {
         Err(code) => code,
-        Ok((build, _)) => {
+        Ok((told, _)) => {
             let views = count(loaded.scene.views.len(), "view");
             let pillars = match &loaded.scene.brief {
                 Some(_) => "pillars to be found".to_string(),
@@ -155,7 +158,7 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
                     count(supports.iter().filter(|s| s.layer.is_some()).count(), what)
                 }
             };
-            let warnings = loaded.warnings.len() + build.warnings.len();
+            let warnings = loaded.warnings.len() + told.len();
             let found = if warnings == 0 {
                 "no problems".to_string()
             } else {
@@ -165,6 +168,31 @@ fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
                 "{}: {views}, {pillars}: {found}\n",
                 args.scene.display()
             ))
+        }
+    }
+}
+
+/// What is to be made of a scene.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Goal {
+    Forest,
+    Plan,
+    Pictures,
+}
+
+impl Goal {
+    fn run(self, scene: &Scene, progress: Progress, stop: Stop) -> Result<Build, Vec<Diagnostic>> {
+        // Plans and pictures promise nothing.
+        let unjudged = |drawn: Drawn| Build {
+            files: drawn.files,
+            summary: drawn.summary,
+            failures: Vec::new(),
+            warnings: drawn.warnings,
+        };
+        match self {
+            Self::Forest => compile::build(scene, progress, stop),
+            Self::Plan => compile::plan(scene, progress, stop).map(unjudged),
+            Self::Pictures => compile::pictures(scene, progress, stop).map(unjudged),
         }
     }
 }
@@ -191,7 +219,7 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
     let allowed: &[&str] = match errand.goal {
         Goal::Plan => &["svg", "png"],
         Goal::Pictures => &[],
-        _ => &["3mf", "stl", "glb", "svg", "png", "json"],
+        Goal::Forest => &["3mf", "stl", "glb", "svg", "png", "json"],
     };
     let destination = match Destination::new(errand.output, &args.scene, allowed) {
         Ok(destination) => destination,
@@ -200,7 +228,7 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
     let Some(loaded) = load(messages, args, scene::resolve) else {
         return WRONG_INPUT;
     };
-    if errand.goal == Goal::All
+    if errand.goal == Goal::Forest
         && loaded.scene.output.split
         && matches!(destination, Destination::File(_))
     {
@@ -208,7 +236,9 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
             .help("give a directory: `-o out/pieces`");
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
-    let (build, reporter) = match compile(messages, global, args, &loaded, errand.goal) {
+    let goal =
+        |scene: &Scene, progress: Progress, stop: Stop| errand.goal.run(scene, progress, stop);
+    let (build, reporter) = match compile(messages, global, args, &loaded, goal, |b| &b.warnings) {
         Ok(done) => done,
         Err(code) => return code,
     };

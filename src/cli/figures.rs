@@ -6,7 +6,8 @@ use super::load::libraries;
 use super::messages::Messages;
 use super::write::Destination;
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::{self, Done, FIGURES, Figure, Made, Order, Workshop};
+use pillarforest::figures::{self, Done, FIGURES, Figure, Job, Made, Workshop};
+use pillarforest::report::Report;
 use pillarforest::scene::nearest;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -83,11 +84,11 @@ fn wanted(names: &[String]) -> Result<Vec<Figure>, Vec<Diagnostic>> {
 }
 
 fn made(wanted: &[Figure], args: &FigureArgs, global: &Global) -> Vec<Done> {
-    let mut build = |order: &Order| {
+    let mut build = |job: &Job| {
         if !global.quiet {
-            eprintln!("       {}", order.folder);
+            eprintln!("       {}", job.folder);
         }
-        built(order, args)
+        built(job, args)
     };
     let mut workshop = Workshop::new(&mut build);
     let one = |figure: &Figure| {
@@ -127,9 +128,9 @@ fn tell(done: &Done) {
 }
 
 /// Builds one case with its files.
-fn built(order: &Order, args: &FigureArgs) -> Result<Made, String> {
-    let scene = scene_path(&args.scenes, &order.scene);
-    let folder = args.output.join(&order.folder);
+fn built(job: &Job, args: &FigureArgs) -> Result<Made, String> {
+    let scene = scene_path(&args.scenes, &job.scene);
+    let folder = args.output.join(&job.folder);
     let program = std::env::current_exe().map_err(|e| format!("cannot find this program: {e}"))?;
     let mut command = Command::new(program);
     command.arg("build").arg(&scene).arg("-o").arg(&folder);
@@ -140,8 +141,7 @@ fn built(order: &Order, args: &FigureArgs) -> Result<Made, String> {
     {
         command.arg("--models").arg(library);
     }
-    order
-        .sets
+    job.sets
         .iter()
         .for_each(|set| _ = command.arg("--set").arg(set));
     if let Some(jobs) = args.jobs {
@@ -153,7 +153,7 @@ fn built(order: &Order, args: &FigureArgs) -> Result<Made, String> {
     if !matches!(output.status.code(), Some(0 | 3)) {
         return Err(failure(&told, &output));
     }
-    read(order, &scene, &folder, &told)
+    read(job, &scene, &folder, &told)
 }
 
 /// The path without detours: `scenes/paper/../four-creatures` is `scenes/four-creatures`.
@@ -183,10 +183,10 @@ fn failure(told: &[Value], output: &Output) -> String {
 }
 
 /// What a build wrote and told.
-fn read(order: &Order, scene: &Path, folder: &Path, told: &[Value]) -> Result<Made, String> {
+fn read(job: &Job, scene: &Path, folder: &Path, told: &[Value]) -> Result<Made, String> {
     let path = folder.join("report.json");
     let text = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let report = serde_json::from_slice(&text).map_err(|e| format!("{}: {e}", path.display()))?;
+    let report = Report::read(&text).map_err(|e| format!("{}: {e}", path.display()))?;
     let timings = told.iter().find(|v| v["timings"].is_array());
     let timings = timings.ok_or("the build told no times")?;
     let stages = timings["timings"].as_array().into_iter().flatten();
@@ -195,7 +195,7 @@ fn read(order: &Order, scene: &Path, folder: &Path, told: &[Value]) -> Result<Ma
     list(folder, "", &mut files);
     files.sort();
     Ok(Made {
-        order: order.clone(),
+        job: job.clone(),
         scene: scene.display().to_string(),
         report,
         seconds: timings["seconds"].as_f64().unwrap_or_default(),

@@ -1,6 +1,6 @@
 //! Contests settled before solving, and what every viewer is promised afterwards.
 
-use super::Built;
+use super::built::Built;
 use super::elsewhere::{camouflages, confirmed_tolerance};
 use super::print::print_checks;
 use super::sight::{carried, give_up};
@@ -10,11 +10,12 @@ use crate::certify::layer::reach_mm;
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Contest, contested, settle};
 use crate::diag::Diagnostic;
+use crate::index::ViewId;
 use crate::mimic::{Optimality, Solved};
 use crate::report::{CertificateReport, ModelShare, Proof};
 use crate::scene::Scene;
 use crate::sight::Sight;
-use crate::words;
+use crate::words::{self, carrier::carrier};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -78,12 +79,12 @@ pub struct Certificates {
 }
 
 /// The certificates of a finished forest, of which `pieces` go on the bed one by one, if it is to come in pieces.
-pub fn certificates(built: &Built, pieces: &[(String, DVec3)]) -> Certificates {
+pub fn certificates(built: &Built, settled: &Settled, pieces: &[(String, DVec3)]) -> Certificates {
     let names = built.scene.views.iter().map(|v| v.name.as_str()).collect();
     let finished = Finished::new(&built.forest, &built.bvh, built.field, names);
     let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())
         .into_par_iter()
-        .map(|v| certificate(built, v, &finished))
+        .map(|v| certificate(built, settled, v, &finished))
         .unzip();
     Certificates {
         views,
@@ -96,19 +97,21 @@ pub fn certificates(built: &Built, pieces: &[(String, DVec3)]) -> Certificates {
 /// The certificate of one view, and warnings of what does not reach it.
 fn certificate(
     built: &Built,
+    settled: &Settled,
     v: usize,
     finished: &Finished,
 ) -> (CertificateReport, Vec<Diagnostic>) {
     let (sight, shape) = (&built.sights[v], &built.shapes[v]);
     let (relief, given_up) = (shape.relief(), &built.forest.given_up[v]);
     let coverage = carried(sight, built.scene, given_up);
-    let sighted = sighted(&sight.into(), v, relief, given_up, finished);
+    let sighted = sighted(sight, ViewId::new(v), relief, given_up, finished);
     let solved = &shape.depths().solved;
     let all_sr = coverage.solid_angle_sr();
     let share = |lost: f64, of: f64| if of > 0.0 { lost / of } else { 0.0 };
     let models = coverage.models.iter().zip(&sighted.lost_sr);
-    let mut unseen = coverage.warnings(sight.name());
-    unseen.extend(sighted.warnings(sight.name()));
+    let (name, carrier) = (sight.name(), carrier(&built.scene.supports));
+    let mut unseen = words::coverage::warnings(name, &coverage, carrier);
+    unseen.extend(words::conflicts::warnings(name, &sighted, carrier));
     let (front, back) = reach_mm(sight, relief);
     let certificate = CertificateReport {
         relief_front_mm: front,
@@ -118,7 +121,7 @@ fn certificate(
         order_inversions: shape.order_inversions(),
         crossings: shape.crossings(),
         proof: proof(solved),
-        not_an_optimum: solved.not_an_optimum,
+        not_an_optimum: solved.not_an_optimum.map(str::to_owned),
         coverage: coverage.share(),
         reaching: coverage.share() - share(sighted.lost_sr.iter().sum(), all_sr),
         models: models
@@ -132,8 +135,8 @@ fn certificate(
         gaps: coverage.gaps,
         small_gaps: coverage.small_gaps,
         small_gaps_arcmin2: coverage.small_gaps_arcmin2,
-        contests: built.settled.contests[v].clone(),
-        contested_left_arcmin2: built.settled.left_arcmin2[v],
+        contests: settled.contests[v].clone(),
+        contested_left_arcmin2: settled.left_arcmin2[v],
         conflicts: sighted.disturbances,
         small_conflicts_arcmin2: sighted.small_arcmin2,
         filled_arcmin2: sighted.filled_arcmin2,

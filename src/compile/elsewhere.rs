@@ -1,7 +1,7 @@
 //! What eyes see that do not stand in their places: tolerance and camouflage, with their picture.
 
-use super::files::file;
-use super::{Built, OutputFile};
+use super::built::Built;
+use super::output::OutputFile;
 use crate::certify::camouflage::{Camouflage, camouflage};
 use crate::certify::tolerance::{Movement, Tolerance, confirm, tolerance};
 use crate::diagram::curves::{Curve, curves};
@@ -75,7 +75,7 @@ pub fn camouflage_files(scene: &Scene, found: &[Camouflage]) -> Vec<OutputFile> 
     let list: Vec<Curve> = found.iter().zip(&scene.views).map(curve).collect();
     let drawing = curves(&scene.title, &list);
     vec![
-        file("camouflage.svg", drawing.svg(&scene.title).into_bytes()),
-        file("camouflage.png", drawing.png(CAMOUFLAGE_PX)),
+        OutputFile::new("camouflage.svg", drawing.svg(&scene.title).into_bytes()),
+        OutputFile::new("camouflage.png", drawing.png(CAMOUFLAGE_PX)),
     ]
 }

@@ -1,7 +1,11 @@
 //! The bytes of every output file.
 
-use super::OutputFile;
-use super::pictures::Pictures;
+use super::built::Built;
+use super::certificates::Certificates;
+use super::elsewhere::{camouflage_files, rooms};
+use super::headline::{carriers, pillars};
+use super::output::OutputFile;
+use super::pictures::turntable_file;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::diagram::plan;
@@ -15,13 +19,31 @@ use crate::kinds::Optimised;
 use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
-use crate::support::SupportKind;
 use crate::view::View;
 
 /// Grey of base and bare pillars in coloured files.
 pub const BARE_COLOUR: [u8; 3] = [198, 194, 186];
 /// Side of the 3MF's thumbnail, pixels.
 const THUMBNAIL_PX: u32 = 512;
+
+/// Everything but the report and the views' pictures; `pieces` are the files of a forest in pieces.
+pub fn forest_files(
+    built: &Built,
+    pieces: Vec<OutputFile>,
+    certificates: &Certificates,
+) -> Vec<OutputFile> {
+    let scene = built.scene;
+    let mut files = printable_files(scene, &built.forest);
+    files.extend(surface_files(scene, &built.shapes));
+    files.extend(section_files(scene, &built.shapes));
+    files.extend(turntable_file(built));
+    files.extend(pieces);
+    if scene.output.plan {
+        files.extend(plan_files(scene, &rooms(&certificates.views)));
+    }
+    files.extend(camouflage_files(scene, &certificates.camouflage));
+    files
+}
 
 fn parts<'a>(scene: &Scene, forest: &'a Forest) -> Vec<Part<'a>> {
     let mut parts = vec![Part {
@@ -39,7 +61,7 @@ fn parts<'a>(scene: &Scene, forest: &'a Forest) -> Vec<Part<'a>> {
     parts
 }
 
-pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
+fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     let parts = parts(scene, forest);
     let (mut mesh, mut colours) = (TriMesh::default(), Vec::new());
     for part in &parts {
@@ -67,10 +89,10 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     };
     let three_mf = || {
         let picture = thumbnail(&mesh, &Bvh::new(&mesh), Some(&colours), THUMBNAIL_PX);
-        file("forest.3mf", write_3mf(&parts, &meta, Some(&picture)))
+        OutputFile::new("forest.3mf", write_3mf(&parts, &meta, Some(&picture)))
     };
     let glb = || {
-        file(
+        OutputFile::new(
             "forest.glb",
             write_glb(
                 &parts,
@@ -84,21 +106,21 @@ pub fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
     files.extend(
         output
             .forest_stl
-            .then(|| file("forest.stl", write_stl(&forest.whole, &scene.title))),
+            .then(|| OutputFile::new("forest.stl", write_stl(&forest.whole, &scene.title))),
     );
     files.extend(output.forest_glb.then(glb));
     files
 }
 
 /// The optimised surfaces as PLY and OBJ, if they are wanted.
-pub fn surface_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
+fn surface_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
     let mut files = Vec::new();
     let views = scene.views.iter().zip(shapes);
     for (view, shape) in views.filter(|_| scene.output.surface) {
         let surface = &shape.surface();
         let path = |extension| format!("surface-{}.{extension}", view.name);
-        files.push(file(path("ply"), write_surface_ply(surface)));
-        files.push(file(path("obj"), write_surface_obj(surface)));
+        files.push(OutputFile::new(path("ply"), write_surface_ply(surface)));
+        files.push(OutputFile::new(path("obj"), write_surface_obj(surface)));
     }
     files
 }
@@ -110,8 +132,8 @@ pub fn section_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<O
         let sheet = groups_sheet(&view.name, &shape.section());
         let path = |extension| format!("groups-{}.{extension}", view.name);
         [
-            file(path("svg"), sheet.svg().into_bytes()),
-            file(path("png"), sheet.png(scene.output.plan_width)),
+            OutputFile::new(path("svg"), sheet.svg().into_bytes()),
+            OutputFile::new(path("png"), sheet.png(scene.output.plan_width)),
         ]
     };
     views
@@ -143,58 +165,7 @@ fn view_camera(view: &View) -> Camera {
 pub fn plan_files(scene: &Scene, rooms: &[Option<f64>]) -> Vec<OutputFile> {
     let plan = plan(&scene.title, &scene.views, &scene.supports, rooms);
     vec![
-        file("plan.svg", plan.svg().into_bytes()),
-        file("plan.png", plan.png(scene.output.plan_width)),
+        OutputFile::new("plan.svg", plan.svg().into_bytes()),
+        OutputFile::new("plan.png", plan.png(scene.output.plan_width)),
     ]
-}
-
-pub fn file(path: impl Into<String>, bytes: Vec<u8>) -> OutputFile {
-    OutputFile {
-        path: path.into(),
-        bytes,
-    }
-}
-
-pub fn pillars(scene: &Scene) -> usize {
-    scene
-        .supports
-        .iter()
-        .filter(|s| matches!(s.kind, SupportKind::Pillar { .. }))
-        .count()
-}
-
-/// What reliefs are carried by: "27 pillars", "1 support", or both.
-pub fn carriers(scene: &Scene) -> String {
-    let bodies = scene.supports.iter().filter(|s| s.is_body()).count();
-    let pillars = pillars(scene);
-    let plural = if bodies == 1 { "" } else { "s" };
-    match (pillars, bodies) {
-        (_, 0) => format!("{pillars} pillars"),
-        (0, _) => format!("{bodies} support{plural}"),
-        _ => format!("{pillars} pillars, {bodies} other support{plural}"),
-    }
-}
-
-pub fn counts(scene: &Scene) -> String {
-    format!("{}, {} views", carriers(scene), scene.views.len())
-}
-
-pub fn summary(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
-    let (lo, hi) = forest.whole.bounds();
-    let size = hi - lo;
-    let likeness: Vec<String> = scene
-        .views
-        .iter()
-        .zip(pictures)
-        .map(|(v, p)| format!("{} {:.1} deg", v.name, p.likeness.mean_deg))
-        .collect();
-    format!(
-        "{}, {:.0} x {:.0} x {:.0} mm, {:.0} cm3, watertight; {}",
-        carriers(scene),
-        size.x,
-        size.y,
-        size.z,
-        forest.whole.volume_mm3() / 1000.0,
-        likeness.join(" / ")
-    )
 }

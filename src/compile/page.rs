@@ -1,7 +1,6 @@
 //! `report.html`: the report with its pictures.
 
-use super::OutputFile;
-use super::files::file;
+use super::output::OutputFile;
 use super::pictures::Pictures;
 use crate::report::Report;
 use crate::report::html::{Exhibits, ViewExhibit};
@@ -38,5 +37,5 @@ pub fn page(
     scene
         .output
         .report_html
-        .then(|| file("report.html", html()))
+        .then(|| OutputFile::new("report.html", html()))
 }

@@ -1,7 +1,7 @@
 //! The pictures of a finished forest, and the figures they give.
 
-use super::files::file;
-use super::{Built, OutputFile};
+use super::built::Built;
+use super::output::OutputFile;
 use crate::kinds::Optimised;
 use crate::render::{
     LightLikeness, Likeness, ViewPictures, light_pictures, turntable, view_pictures,
@@ -18,7 +18,7 @@ pub struct Pictures {
 }
 
 /// The pictures of every view.
-pub fn pictures(built: &Built) -> Vec<Pictures> {
+pub fn drawn(built: &Built) -> Vec<Pictures> {
     let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
     let of_view = |(v, shape): (&View, &Box<dyn Optimised + '_>)| {
         let steps = shape.steps().map(|(lines, all)| (lines, *all));
@@ -33,7 +33,7 @@ pub fn pictures(built: &Built) -> Vec<Pictures> {
         .scene
         .views
         .iter()
-        .zip(built.shapes)
+        .zip(&built.shapes)
         .map(of_view)
         .collect()
 }
@@ -44,7 +44,7 @@ pub fn turntable_file(built: &Built) -> Option<OutputFile> {
     let view = built.scene.views.first().filter(|_| output.turntable)?;
     let solid = built.forest.whole.mesh();
     let strip = turntable(view, solid, &built.bvh, output.picture_size);
-    Some(file("turntable.png", strip))
+    Some(OutputFile::new("turntable.png", strip))
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.
@@ -52,8 +52,12 @@ pub fn picture_files(scene: &Scene, pictures: &[Pictures], views: bool) -> Vec<O
     let mut files = Vec::new();
     for (view, drawn) in scene.views.iter().zip(pictures) {
         let name = &view.name;
-        files.extend(views.then(|| file(format!("views/{name}.png"), drawn.view.sheet.clone())));
-        let sheet = |(_, png): &(_, Vec<u8>)| file(format!("views/{name}-lights.png"), png.clone());
+        files.extend(
+            views.then(|| OutputFile::new(format!("views/{name}.png"), drawn.view.sheet.clone())),
+        );
+        let sheet = |(_, png): &(_, Vec<u8>)| {
+            OutputFile::new(format!("views/{name}-lights.png"), png.clone())
+        };
         files.extend(drawn.lights.as_ref().map(sheet));
     }
     files

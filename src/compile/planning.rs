@@ -1,7 +1,6 @@
 //! Layouts: pillars found or mended for a scene, as a scene to build and as files to keep.
 
-use super::OutputFile;
-use super::files::file;
+use super::output::OutputFile;
 use crate::diag::Diagnostic;
 use crate::diagram::Plan;
 use crate::diagram::planning::{animation, sheet, strip, trade};
@@ -57,11 +56,11 @@ pub fn plan_outputs(scene: &Scene, plan: &Planned) -> Vec<OutputFile> {
         let (title, views) = (&scene.title, &scene.views);
         files.extend(picture("plan", &sheet(title, views, brief, plan), SHEET_PX));
         files.extend(picture("tradeoff", &trade(title, brief, plan), TRADE_PX));
-        files.push(file(
+        files.push(OutputFile::new(
             "search.svg",
             animation(title, views, brief, plan).into_bytes(),
         ));
-        files.push(file(
+        files.push(OutputFile::new(
             "search.png",
             strip(title, views, brief, plan).png(STRIP_PX),
         ));
@@ -71,13 +70,13 @@ pub fn plan_outputs(scene: &Scene, plan: &Planned) -> Vec<OutputFile> {
 
 fn picture(name: &str, page: &Plan, width_px: u32) -> [OutputFile; 2] {
     [
-        file(format!("{name}.svg"), page.svg().into_bytes()),
-        file(format!("{name}.png"), page.png(width_px)),
+        OutputFile::new(format!("{name}.svg"), page.svg().into_bytes()),
+        OutputFile::new(format!("{name}.png"), page.png(width_px)),
     ]
 }
 
 pub fn layout_file(scene: &Scene, plan: &Planned) -> OutputFile {
-    file(LAYOUT, layout_text(scene, plan).into_bytes())
+    OutputFile::new(LAYOUT, layout_text(scene, plan).into_bytes())
 }
 
 /// What of a plan does not hold.

@@ -1,7 +1,7 @@
 //! The print checks of a scene.
 
-use super::Built;
-use crate::certify::printability::{PrintCheck, PrintLimits, Subject, printability};
+use super::built::Built;
+use crate::certify::printability::{PrintCheck, PrintLimits, Printed, printability};
 use crate::scene::defaults;
 use glam::DVec3;
 
@@ -15,12 +15,12 @@ pub fn print_checks(built: &Built, bodies: &[(String, DVec3)]) -> Vec<PrintCheck
         gap_nozzles: defaults::NARROW_GAP_NOZZLES,
         slimmest: defaults::SLIMMEST,
     };
-    let subject = Subject {
+    let printed = Printed {
         supports: &scene.supports,
         whole: &forest.whole,
         bvh: &built.bvh,
         standing: &forest.standing,
         bodies,
     };
-    printability(&subject, &limits)
+    printability(&printed, &limits)
 }

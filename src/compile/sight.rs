@@ -2,6 +2,7 @@
 
 use crate::certify::coverage::{Coverage, coverage};
 use crate::diag::Diagnostic;
+use crate::index::CellId;
 use crate::kinds::Optimised;
 use crate::scene::Scene;
 use crate::sight::{Loss, Sight};
@@ -65,7 +66,7 @@ pub fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) -> Vec<Di
 }
 
 /// What of the models a support carries, and why the rest is not. `given_up` are cells without relief in the solid.
-pub fn carried(sight: &Sight, scene: &Scene, given_up: &[u32]) -> Coverage {
+pub fn carried(sight: &Sight, scene: &Scene, given_up: &[CellId]) -> Coverage {
     let views: Vec<&str> = scene.views.iter().map(|v| v.name.as_str()).collect();
-    coverage(&sight.into(), &views, sight.image.field, given_up)
+    coverage(sight, &views, given_up)
 }

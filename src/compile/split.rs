@@ -1,14 +1,17 @@
 //! The files of a forest in pieces.
 
-use super::OutputFile;
-use super::files::{BARE_COLOUR, file};
+use super::files::BARE_COLOUR;
+use super::output::OutputFile;
+use super::progress::Progress;
 use crate::carve::Forest;
 use crate::diag::Diagnostic;
 use crate::diagram::layout;
 use crate::formats::{Metadata, Part, write_3mf, write_stl};
+use crate::ladder::Ladder;
 use crate::mesh::{Solid, mend};
 use crate::scene::Scene;
-use crate::split::{Piece, Split, SplitError, SplitOptions, split};
+use crate::split::{Piece, Split, SplitOptions, split};
+use crate::words::split as words;
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
@@ -17,93 +20,71 @@ const SPACING_MM: f64 = 6.0;
 /// Their places are multiples of this, millimetres: up to 256 mm from the origin that moves them exactly.
 const GRAIN_MM: f64 = 1.0 / 64.0;
 
-/// Divides the forest for the scene's printer.
+/// A forest in pieces; empty if it is to stay in one.
+#[derive(Default)]
+pub struct Divided {
+    /// Names and sizes of the pieces.
+    pub bodies: Vec<(String, DVec3)>,
+    pub files: Vec<OutputFile>,
+    pub warnings: Vec<Diagnostic>,
+    pub ladders: Vec<Ladder>,
+}
+
+/// Divides the forest for the scene's printer, if it is wanted.
 ///
 /// # Errors
 /// If it cannot be divided, with what to change.
-pub fn pieces(scene: &Scene, forest: &Forest) -> Result<Split, Diagnostic> {
+pub fn divided(
+    scene: &Scene,
+    forest: &Forest,
+    progress: Progress,
+) -> Result<Divided, Vec<Diagnostic>> {
+    if !scene.output.split {
+        return Ok(Divided::default());
+    }
+    progress("pieces", 0.75);
     let options = SplitOptions {
         nozzle: scene.printer.nozzle,
         bed: scene.printer.bed,
         clearance: scene.printer.clearance,
     };
-    split(&scene.supports, &forest.standing, &options).map_err(|e| {
-        let help = match e {
-            SplitError::ThinBase(_) => "a thicker base: `base: Disc(thickness: 5)`",
-            SplitError::SmallBed => "the size of your printer: `printer: (bed: (256, 256, 256))`",
-            SplitError::Body(_) => "without `--split`: slicers cut other bodies",
-            SplitError::Carve(_) => "without `--split` the forest comes in one piece",
-        };
-        Diagnostic::error(format!("the forest cannot be split: {e}")).help(help)
-    })
+    let split = split(&scene.supports, &forest.standing, &options)
+        .map_err(|error| vec![words::refusal(&error)])?;
+    let mut divided = Divided {
+        bodies: bodies(&split),
+        files: piece_files(scene, &split),
+        warnings: words::remarks(&split),
+        ladders: split.ladders(),
+    };
+    match spread(&split) {
+        Ok((placed, ladders)) => {
+            let bytes = three_mf(scene, &split, &placed);
+            divided.files.push(OutputFile::new("split.3mf", bytes));
+            divided.ladders.extend(ladders);
+        }
+        Err(name) => divided.warnings.push(words::left_out(&name)),
+    }
+    Ok(divided)
 }
 
-/// Names and sizes of the pieces.
-pub fn bodies(split: &Split) -> Vec<(String, DVec3)> {
+fn bodies(split: &Split) -> Vec<(String, DVec3)> {
     let size = |s: &Solid| s.bounds().1 - s.bounds().0;
     let pieces = split.pieces.iter();
     pieces.map(|p| (p.name.clone(), size(&p.solid))).collect()
 }
 
-/// What is worth telling of the pieces.
-pub fn remarks(split: &Split) -> Vec<Diagnostic> {
-    let mut remarks = Vec::new();
-    let pieces = || split.pieces.iter();
-    if pieces().all(|p| !p.is_plate) {
-        let text = "the forest has no base: `--split` makes pillars without pegs, and no plates";
-        remarks.push(Diagnostic::warning(text).help("layout.svg shows where they belong"));
-    }
-    let loose: Vec<&str> = pieces()
-        .filter(|p| p.solid.parts() > 1)
-        .map(|p| p.name.as_str())
-        .collect();
-    if !loose.is_empty() {
-        remarks.push(Diagnostic::warning(format!(
-            "of several loose parts: {}",
-            loose.join(", ")
-        )));
-    }
-    let mute: Vec<&str> = pieces()
-        .filter(|p| !p.engraved)
-        .map(|p| p.name.as_str())
-        .collect();
-    if !mute.is_empty() {
-        remarks.push(
-            Diagnostic::warning(format!(
-                "no room to engrave the number of: {}",
-                mute.join(", ")
-            ))
-            .help("their files are numbered all the same, and layout.svg shows every number"),
-        );
-    }
-    remarks
-}
-
-/// `layout.svg`, an STL for each piece in `split/`, and `split.3mf` with every piece as an object; the last is left out, with a
-/// warning, if rounding upsets a piece where it would stand.
-pub fn split_files(scene: &Scene, split: &Split) -> (Vec<OutputFile>, Option<Diagnostic>) {
+/// `layout.svg`, and an STL for each piece in `split/`.
+fn piece_files(scene: &Scene, split: &Split) -> Vec<OutputFile> {
     let page = layout(&scene.title, &scene.views, &scene.supports, split);
-    let mut files = vec![file("layout.svg", page.svg().into_bytes())];
+    let mut files = vec![OutputFile::new("layout.svg", page.svg().into_bytes())];
     files.extend(split.pieces.iter().map(|piece| {
         let title = format!("{}, {}", scene.title, piece.says);
-        file(
+        OutputFile::new(
             format!("split/{}.stl", piece.name),
             write_stl(&piece.solid, &title),
         )
     }));
-    match spread(split) {
-        Ok(placed) => {
-            files.push(file("split.3mf", three_mf(scene, split, &placed)));
-            (files, None)
-        }
-        Err(name) => {
-            let text = format!("split.3mf is left out: {name} is not sound beside the others");
-            (
-                files,
-                Some(Diagnostic::warning(text).help("the files in split/ are complete")),
-            )
-        }
-    }
+    files
 }
 
 fn three_mf(scene: &Scene, split: &Split, placed: &[Solid]) -> Vec<u8> {
@@ -127,25 +108,39 @@ fn three_mf(scene: &Scene, split: &Split, placed: &[Solid]) -> Vec<u8> {
     write_3mf(&parts, &meta, None)
 }
 
-/// The pieces side by side in rows, about the origin; or the name of one that is not sound there. A piece with a film so thin that
-/// it is sound near the origin only, where f32 is finest, is put there.
-fn spread(split: &Split) -> Result<Vec<Solid>, String> {
+/// The pieces side by side in rows, about the origin, with what was tried for it; or the name of one that is not sound there. A
+/// piece with a film so thin that it is sound near the origin only, where f32 is finest, is put there.
+fn spread(split: &Split) -> Result<(Vec<Solid>, Vec<Ladder>), String> {
     let places = places(split);
     let name = |k: usize| split.pieces[k].name.clone();
-    let put = |shift: DVec3| -> Result<Vec<Solid>, usize> {
+    let put = |shift: DVec3| -> Result<Vec<(Solid, usize)>, usize> {
         let pieces = split.pieces.par_iter().zip(&places).enumerate();
         let placed = pieces.map(|(k, (piece, at))| placed(piece, *at - shift).ok_or(k));
         // The first failure by number, whatever thread finds it.
         placed.collect::<Vec<_>>().into_iter().collect()
     };
-    put(DVec3::ZERO).or_else(|k| put(places[k]).map_err(name))
+    let (placed, shift) = match put(DVec3::ZERO) {
+        Ok(placed) => (placed, 0),
+        Err(k) => (put(places[k]).map_err(name)?, 1),
+    };
+    let (solids, mended): (Vec<Solid>, Vec<usize>) = placed.into_iter().unzip();
+    let mut ladders = vec![Ladder::new("origin of all pieces", None, shift, 2)];
+    let of_pieces = split.pieces.iter().zip(mended);
+    ladders.extend(
+        of_pieces.map(|(p, rung)| {
+            Ladder::new("moving of a piece, mended at last", Some(&p.name), rung, 2)
+        }),
+    );
+    Ok((solids, ladders))
 }
 
-fn placed(piece: &Piece, at: DVec3) -> Option<Solid> {
+/// The piece moved there: as it is (0), or mended (1).
+fn placed(piece: &Piece, at: DVec3) -> Option<(Solid, usize)> {
     let mesh = piece.solid.mesh();
     let mesh = mesh.transformed(DMat4::from_translation(at));
-    let mended = || Solid::new(mend(&mesh).mesh);
-    Solid::new(mesh.clone()).or_else(|_| mended()).ok()
+    let mended = || Solid::new(mend(&mesh).mesh).ok().map(|s| (s, 1));
+    let as_it_is = Solid::new(mesh.clone()).ok().map(|s| (s, 0));
+    as_it_is.or_else(mended)
 }
 
 fn places(split: &Split) -> Vec<DVec3> {

@@ -1,21 +1,52 @@
 //! The report of a finished forest.
 
-use super::Built;
+use super::built::Built;
 use super::certificates::Certificates;
 use super::pictures::Pictures;
-use crate::diag::Diagnostic;
+use crate::ladder::{Ladder, short};
 use crate::mimic::{Method, Solved};
-use crate::report::{Check, ProgramReport, Report, SolidReport, ViewReport};
+use crate::report::{
+    CertificateReport, PrintReport, ProgramReport, Report, SolidReport, ViewReport,
+};
+use crate::words::{self, carrier::carrier};
 
-/// Gathers what every stage found; gives back what of the models does not reach its viewer.
+/// Gathers what every stage found; `split` are the ladders of a forest in pieces.
 pub fn report(
     built: &Built,
     pictures: &[Pictures],
     certificates: Certificates,
-) -> (Report, Vec<Diagnostic>) {
-    let stages = built.sights.iter().zip(built.shapes);
-    let results = pictures.iter().zip(certificates.views);
-    let views = stages
+    split: Vec<Ladder>,
+) -> Report {
+    let carrier = carrier(&built.scene.supports);
+    let print = certificates.print.iter();
+    Report {
+        scene: built.scene.title.clone(),
+        views: views(built, pictures, certificates.views),
+        solid: Some(SolidReport::of_forest(&built.forest)),
+        camouflage: certificates.camouflage,
+        print: print
+            .map(|c| PrintReport::new(c, words::print::note(c, carrier)))
+            .collect(),
+        ladders: short(ladders(built, split)),
+        ..Report::default()
+    }
+}
+
+/// The ladders of view maps and solids, and of a forest in pieces.
+fn ladders(built: &Built, split: Vec<Ladder>) -> Vec<Ladder> {
+    let maps = built.sights.iter().map(|s| s.image.ladder());
+    let solids = built.forest.ladders.iter().cloned();
+    maps.chain(solids).chain(split).collect()
+}
+
+fn views(
+    built: &Built,
+    pictures: &[Pictures],
+    certificates: Vec<CertificateReport>,
+) -> Vec<ViewReport> {
+    let stages = built.sights.iter().zip(&built.shapes);
+    let results = pictures.iter().zip(certificates);
+    stages
         .zip(results)
         .map(|((sight, shape), (drawn, certificate))| ViewReport {
             solid_angle_sr: Some(certificate.models.iter().map(|m| m.solid_angle_sr).sum()),
@@ -27,55 +58,8 @@ pub fn report(
             iterated: shape.depths().iterated.clone(),
             lights: drawn.lights.as_ref().map(|(figures, _)| figures.clone()),
             ..ViewReport::new(sight.image.view).with_likeness(&drawn.likeness)
-        });
-    let forest = &built.forest;
-    let repairs = &forest.repairs;
-    let check = |name: &str, passed: bool, found: String| Check {
-        name: name.into(),
-        passed,
-        found,
-    };
-    let checks = vec![
-        check(
-            "closed, oriented, 2-manifold, free of self-intersection",
-            true,
-            String::new(),
-        ),
-        check(
-            "one connected part",
-            forest.whole.parts() == 1,
-            format!("{} parts", forest.whole.parts()),
-        ),
-        check(
-            "no relief given up",
-            repairs.dropped_cells == 0,
-            format!("{} cells", repairs.dropped_cells),
-        ),
-        check(
-            "loose crumbs dropped",
-            true,
-            format!("{:.5} mm3", repairs.crumbs_mm3),
-        ),
-        check(
-            "floating reliefs tied by a brace",
-            true,
-            format!("{}", repairs.braces),
-        ),
-        check(
-            "relief corners filled in",
-            true,
-            format!("{}", repairs.filled),
-        ),
-    ];
-    let report = Report {
-        scene: built.scene.title.clone(),
-        views: views.collect(),
-        solid: Some(SolidReport::new(&forest.whole, checks)),
-        camouflage: certificates.camouflage,
-        print: certificates.print,
-        ..Report::default()
-    };
-    (report, certificates.unseen)
+        })
+        .collect()
 }
 
 fn program(solved: &Solved) -> ProgramReport {
@@ -86,13 +70,14 @@ fn program(solved: &Solved) -> ProgramReport {
         method: match solved.method {
             Method::InteriorPoint => "interior point",
             Method::DualWorkingSet => "dual working set",
-        },
+        }
+        .to_owned(),
         active_rows: solved.optimality.active,
         iterations: solved.iterations,
         objective: solved.optimality.objective,
         objective_first: solved.objective_first,
         rounds: solved.rounds,
         rows_added: solved.added,
-        gauge: solved.gauge,
+        gauge: solved.gauge.to_owned(),
     }
 }

@@ -1,60 +1,36 @@
 //! The verdict: what of all that a build promises does not hold.
 
-use crate::certify::printability::PrintCheck;
+use super::built::Built;
+use super::certificates::Certificates;
 use crate::diag::Diagnostic;
-use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Report};
+use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL};
 use crate::scene::Scene;
+use crate::words::{self, carrier::carrier};
 
-/// Everything that does not hold, besides what of the models does not reach its viewer (`unseen`).
-pub fn failures(scene: &Scene, report: &Report, unseen: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    let promised = [
-        scene.relief.energy().ordering(),
-        scene.relief.keeps_sheets_apart(),
-    ];
-    let mut failures: Vec<Diagnostic> = unseen.into_iter().map(Diagnostic::into_error).collect();
-    for view in &report.views {
-        if let Some(certificate) = &view.certificate {
-            of_view(&view.name, certificate, promised, &mut failures);
-        }
+/// Everything that does not hold: of the models, of each view, of the forest as one, and of printing it.
+pub fn failures(built: &Built, certificates: &Certificates) -> Vec<Diagnostic> {
+    let scene = built.scene;
+    let carrier = carrier(&scene.supports);
+    let unseen = certificates.unseen.iter().cloned();
+    let mut failures: Vec<Diagnostic> = unseen.map(Diagnostic::into_error).collect();
+    for (view, certificate) in scene.views.iter().zip(&certificates.views) {
+        of_view(scene, &view.name, certificate, &mut failures);
     }
-    if let Some(solid) = report.solid.as_ref().filter(|s| s.parts > 1) {
+    let parts = built.forest.whole.parts();
+    if parts > 1 {
         failures.push(
-            Diagnostic::error(format!(
-                "the forest comes apart into {} pieces",
-                solid.parts
-            ))
-            .help("a pillar that stands outside the base, or no base at all, leaves pieces loose"),
+            Diagnostic::error(format!("the forest comes apart into {parts} pieces")).help(format!(
+                "a {carrier} that stands outside the base, or no base at all, leaves pieces loose"
+            )),
         );
     }
-    failures.extend(report.print.iter().filter(|c| !c.ok).map(print_failure));
+    let print = certificates.print.iter().filter(|c| !c.ok);
+    failures.extend(print.map(|c| words::print::failure(c, carrier)));
     failures
 }
 
-fn print_failure(check: &PrintCheck) -> Diagnostic {
-    let PrintCheck {
-        check: name,
-        place: [x, y, z],
-        value_mm,
-        limit_mm,
-        ..
-    } = check;
-    let text = format!(
-        "print check `{name}`: {value_mm:.2} mm at ({x:.1}, {y:.1}, {z:.1}) mm, and the limit is {limit_mm:.2} mm"
-    );
-    let failure = Diagnostic::error(text);
-    if check.note.is_empty() {
-        failure
-    } else {
-        failure.help(check.note.clone())
-    }
-}
-
-fn of_view(
-    name: &str,
-    found: &CertificateReport,
-    [ordered, sheets_apart]: [bool; 2],
-    failures: &mut Vec<Diagnostic>,
-) {
+fn of_view(scene: &Scene, name: &str, found: &CertificateReport, failures: &mut Vec<Diagnostic>) {
+    let ordered = scene.relief.energy().ordering();
     let mut fail = |holds: bool, text: String, help: &str| {
         if !holds {
             failures.push(Diagnostic::error(format!("view \"{name}\": {text}")).help(help));
@@ -76,7 +52,7 @@ fn of_view(
     );
     let crossing = found.crossings.map_or(0, |c| c.self_intersections);
     fail(
-        !sheets_apart || crossing == 0,
+        !scene.relief.keeps_sheets_apart() || crossing == 0,
         format!("its mesh crosses itself at {crossing} pairs of faces"),
         "`check` tells whether the models cross themselves already; finer or rounder meshes leave more room at their silhouettes",
     );
@@ -94,6 +70,9 @@ fn of_view(
             "{:.1} square arc-minutes are still contested",
             found.contested_left_arcmin2
         ),
-        "move pillars of different views apart",
+        &format!(
+            "move {}s of different views apart",
+            carrier(&scene.supports)
+        ),
     );
 }

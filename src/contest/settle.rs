@@ -4,7 +4,7 @@ use super::claims::{Claim, Meeting, claims, meetings};
 use crate::geom::SQUARE_ARCMIN;
 use crate::index::CellId;
 use crate::sight::{Loss, Sight};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Who gets contested surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum Contested {
 }
 
 /// Cells of one view on one support that are in conflict with those of another view on one support.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contest {
     pub with_view: String,
     pub support: String,

@@ -123,9 +123,9 @@ fn pillars(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support], split: &S
             .fold(0.0, f64::max);
         match socket.label {
             // Where it is engraved, as high as it is there.
-            Some((at, stroke)) => {
-                let size = (5.0 * stroke / 0.7).min(1.1 * reach + 2.0);
-                let at = sheet.at(at) + DVec2::new(0.0, 0.35 * size);
+            Some(label) => {
+                let size = (5.0 * label.stroke / 0.7).min(1.1 * reach + 2.0);
+                let at = sheet.at(label.middle) + DVec2::new(0.0, 0.35 * size);
                 drawing.text(at, &text, style(size, TEXT, Anchor::Middle));
             }
             None => {

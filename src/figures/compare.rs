@@ -1,7 +1,8 @@
 //! Against other methods: Figs 10 and 11.
 
+use super::figure::Figure;
+use super::findings::Findings;
 use super::workshop::{LEAN, Workshop, with};
-use super::{Figure, Findings};
 use crate::compile::OutputFile;
 use crate::diagram::chart::{Chart, Line, chart};
 
@@ -78,10 +79,8 @@ fn depths(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         across: "depth of the layer, mm".to_owned(),
         lines,
     });
-    found.files.push(OutputFile {
-        path: "fig10/depths.svg".to_owned(),
-        bytes: drawing.svg("Errors at five depths").into_bytes(),
-    });
+    let svg = drawing.svg("Errors at five depths").into_bytes();
+    found.files.push(OutputFile::new("fig10/depths.svg", svg));
     found.picture("errors at every depth", "fig10/depths.svg".to_owned());
     Ok(())
 }
@@ -101,7 +100,7 @@ fn gradients(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     for energy in energies {
         let set = format!("energy={energy}");
         let made = shop.build(energy, scene, &with(&[&set], &LEAN))?;
-        let front = made.most("/certificate/relief_front_mm")?;
+        let front = made.most(|c| c.relief_front_mm)?;
         found.case(energy, &made, &[("relief_front_mm", front)])?;
         errors.push(made.error_deg()?);
     }
@@ -119,10 +118,7 @@ fn gradients(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         ),
     );
     let size = shop.build(energies[1], scene, &with(&["energy=Curvature()"], &LEAN))?;
-    let [x, z] = [
-        size.number("/solid/size_mm/0")?,
-        size.number("/solid/size_mm/2")?,
-    ];
+    let [x, _, z] = size.solid()?.size_mm;
     found.note(format!("The plate is {x:.0} x {z:.0} mm. Compressed gradients are our implementation after the published method: attenuation log(1 + alpha g) / alpha, integrated by least squares on the visible triangles, then scaled into the layer; without sharpening."));
     Ok(())
 }

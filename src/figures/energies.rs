@@ -1,7 +1,10 @@
 //! The energy and its variants: Figs 5, 6, 7, 9 and the appendix.
 
+use super::figure::Figure;
+use super::findings::Findings;
+use super::made::Made;
 use super::workshop::{LEAN, Workshop, with};
-use super::{Figure, Findings, Made};
+use crate::mimic::Ending;
 use std::rc::Rc;
 
 pub const SCALE: Figure = Figure {
@@ -52,12 +55,11 @@ fn iterated(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     )?;
     found.case("box, linearised", &linear, &[])?;
     for (name, made) in [("box, iterated", &iterated), ("hare, iterated", &scan)] {
-        let rounds = made.report.pointer("/views/0/iterated/rounds");
-        let rounds = rounds.and_then(|r| r.as_array()).ok_or("no rounds")?;
-        let change = rounds.last().and_then(|r| r["change"].as_f64());
+        let iterated = made.first_view()?.iterated.as_ref().ok_or("no rounds")?;
+        let change = iterated.rounds.last().map_or(f64::NAN, |r| r.change);
         let measured = [
-            ("rounds", rounds.len() as f64),
-            ("last_change_of_layer", change.unwrap_or(f64::NAN)),
+            ("rounds", iterated.rounds.len() as f64),
+            ("last_change_of_layer", change),
         ];
         found.counter_case(name, made, &measured)?;
     }
@@ -76,9 +78,16 @@ fn iterated(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-fn ending(made: &Made) -> &str {
-    let ending = made.report.pointer("/views/0/iterated/ending");
-    ending.and_then(|e| e.as_str()).unwrap_or("not run")
+/// How the iteration of the first view ended, as the report has it.
+fn ending(made: &Made) -> &'static str {
+    let iterated = made.report.views.first().and_then(|v| v.iterated.as_ref());
+    match iterated.map(|i| i.ending) {
+        Some(Ending::Converged) => "converged",
+        Some(Ending::Unfinished) => "unfinished",
+        Some(Ending::Diverged) => "diverged",
+        Some(Ending::Failed) => "failed",
+        None => "not run",
+    }
 }
 
 pub const MEAN_CURVATURE: Figure = Figure {
@@ -150,7 +159,7 @@ pub const CONIC: Figure = Figure {
 fn conic(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let quadratic = lean(shop, "quadratic", "appendix-conic", "Curvature()")?;
     let conic = lean(shop, "conic", "appendix-conic", "Curvature(form: Conic)")?;
-    let objective = |made: &Made| made.number("/views/0/program/objective");
+    let objective = |made: &Made| made.program().map(|p| p.objective);
     let solving = |made: &Made| made.stage_seconds("quadratic programs");
     for (name, made) in [("quadratic", &quadratic), ("conic", &conic)] {
         let measured = [

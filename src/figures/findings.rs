@@ -10,7 +10,7 @@ pub type Number = (&'static str, f64);
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub cases: Vec<Case>,
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Conclusion>,
     pub pictures: Vec<Picture>,
     /// Made by the figure itself.
     pub files: Vec<OutputFile>,
@@ -32,7 +32,7 @@ pub struct Case {
 
 /// A sentence with its numbers, and whether they bear it out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
+pub struct Conclusion {
     pub text: String,
     pub holds: bool,
 }
@@ -62,10 +62,11 @@ impl Findings {
     }
 
     fn add(&mut self, name: &str, made: &Made, more: &[Number], ok: bool) -> Result<(), String> {
+        let errors = made.normal_errors()?;
         let mut measured = vec![
-            ("error_mean_deg", made.error_deg()?),
-            ("error_median_deg", made.mean("/normal_error_deg/median")?),
-            ("error_p90_deg", made.mean("/normal_error_deg/p90")?),
+            ("error_mean_deg", errors.mean),
+            ("error_median_deg", errors.median),
+            ("error_p90_deg", errors.p90),
         ];
         measured.extend_from_slice(more);
         self.row(name, made, &measured, ok);
@@ -83,7 +84,7 @@ impl Findings {
         self.cases.push(Case {
             name: name.to_owned(),
             scene: made.scene.clone(),
-            sets: made.order.sets.clone(),
+            sets: made.job.sets.clone(),
             measured,
             ok,
         });
@@ -98,7 +99,7 @@ impl Findings {
 
     pub fn claim(&mut self, holds: bool, text: impl Into<String>) {
         let text = text.into();
-        self.claims.push(Claim { text, holds });
+        self.claims.push(Conclusion { text, holds });
     }
 
     pub fn note(&mut self, text: impl Into<String>) {

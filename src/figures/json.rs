@@ -1,6 +1,7 @@
 //! `figures.json`: the rows for scripts.
 
-use super::Done;
+use super::figure::Done;
+use super::findings::Case;
 use serde_json::{Map, Value, json};
 
 /// One object with `rows` (a case each: `figure`, `case`, `scene`, `set`, `measured` by names that tell the units, `ok`) and
@@ -17,7 +18,7 @@ pub fn json(done: &[Done]) -> String {
 }
 
 fn rows(done: &Done) -> Vec<Value> {
-    let row = |case: &super::Case| {
+    let row = |case: &Case| {
         let measured: Map<String, Value> = case
             .measured
             .iter()

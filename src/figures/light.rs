@@ -1,7 +1,9 @@
 //! In real light: Figs 18 and 19.
 
+use super::figure::Figure;
+use super::findings::Findings;
+use super::made::Made;
 use super::workshop::Workshop;
-use super::{Figure, Findings};
 
 /// Scenes that are looked at in every light, all of them torn: with normals that are right, what goes wrong is the light's doing.
 const SCENES: [(&str, &str, &[&str]); 3] = [
@@ -26,7 +28,7 @@ pub const SUN_AND_CLOUD: Figure = Figure {
 fn sun_and_cloud(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     for (name, scene, sets) in SCENES {
         let made = shop.build(name, scene, sets)?;
-        let rmse = |light: &str| made.in_light(light, "rmse");
+        let rmse = |light: &str| made.in_light(light, |l| Some(l.rmse));
         let measured = [
             ("overcast_rmse", rmse("overcast")?),
             ("sun_60_rmse", rmse("sun_60")?),
@@ -34,11 +36,11 @@ fn sun_and_cloud(shop: &mut Workshop, found: &mut Findings) -> Result<(), String
             ("sun_15_rmse", rmse("sun_15")?),
             (
                 "sun_30_without_shadows_rmse",
-                made.in_light("sun_30", "rmse_unshadowed")?,
+                made.in_light("sun_30", |l| Some(l.rmse_unshadowed))?,
             ),
             (
                 "sun_30_false_shadow_share",
-                made.in_light("sun_30", "false_shadow_share")?,
+                made.in_light("sun_30", |l| l.false_shadow_share)?,
             ),
         ];
         found.row(name, &made, &measured, made.keeps_promises());
@@ -69,19 +71,17 @@ pub const FLASH: Figure = Figure {
 fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     for (name, scene, sets) in SCENES {
         let made = shop.build(name, scene, sets)?;
-        let shading = "rmse_unshadowed";
-        let [flash, cloudy] = [
-            made.in_light("flash", shading)?,
-            made.in_light("overcast", shading)?,
-        ];
+        let shading = |light: &str| made.in_light(light, |l| Some(l.rmse_unshadowed));
+        let [flash, cloudy] = [shading("flash")?, shading("overcast")?];
+        let rmse = |light: &str| made.in_light(light, |l| Some(l.rmse));
         let measured = [
-            ("flash_rmse", made.in_light("flash", "rmse")?),
+            ("flash_rmse", rmse("flash")?),
             ("flash_without_shadows_rmse", flash),
             (
                 "flash_false_shadow_share",
-                made.in_light("flash", "false_shadow_share")?,
+                made.in_light("flash", |l| l.false_shadow_share)?,
             ),
-            ("overcast_rmse", made.in_light("overcast", "rmse")?),
+            ("overcast_rmse", rmse("overcast")?),
             ("overcast_without_shadows_rmse", cloudy),
         ];
         found.row(name, &made, &measured, made.keeps_promises());
@@ -96,7 +96,7 @@ fn flash(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
 }
 
 /// The sheet of the first view in all lights.
-fn sheet(found: &mut Findings, name: &str, made: &super::Made) -> Result<(), String> {
+fn sheet(found: &mut Findings, name: &str, made: &Made) -> Result<(), String> {
     let path = made.file("sheet of lights", |f| f.ends_with("-lights.png"))?;
     found.picture(name, path);
     Ok(())

@@ -1,16 +1,18 @@
 //! What a build tells of itself.
 
-use super::workshop::Order;
-use serde_json::Value;
+use super::job::Job;
+use crate::render::LightLikeness;
+use crate::report::{
+    CertificateReport, NormalError, ProgramReport, Report, SolidReport, ViewReport,
+};
 
 /// A built scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Made {
-    pub order: Order,
+    pub job: Job,
     /// Path of the scene, for people.
     pub scene: String,
-    /// `report.json`.
-    pub report: Value,
+    pub report: Report,
     pub seconds: f64,
     /// Stages in order with their seconds.
     pub stages: Vec<(String, f64)>,
@@ -21,75 +23,146 @@ pub struct Made {
 }
 
 impl Made {
-    /// A number of the report by its JSON pointer.
-    ///
-    /// # Errors
-    /// There is none.
-    pub fn number(&self, pointer: &str) -> Result<f64, String> {
-        let found = self.report.pointer(pointer).and_then(Value::as_f64);
-        found.ok_or_else(|| format!("report.json of {} has no number {pointer}", self.scene))
+    /// What the report may leave out, of every view.
+    fn of_views<T>(
+        &self,
+        what: &str,
+        get: impl Fn(&ViewReport) -> Option<T>,
+    ) -> Result<Vec<T>, String> {
+        let found: Option<Vec<T>> = self.report.views.iter().map(get).collect();
+        found.ok_or_else(|| self.lacks(what))
     }
 
-    /// A number of every view.
+    fn lacks(&self, what: &str) -> String {
+        format!("report.json of {} has no {what}", self.scene)
+    }
+
+    /// A figure of every view's certificate.
+    fn certified(&self, get: impl Fn(&CertificateReport) -> f64) -> Result<Vec<f64>, String> {
+        self.of_views("certificate", |v| v.certificate.as_ref().map(&get))
+    }
+
+    /// Mean over the views' certificates.
     ///
     /// # Errors
     /// A view has none.
-    pub fn of_views(&self, pointer: &str) -> Result<Vec<f64>, String> {
-        let count = self.report["views"].as_array().map_or(0, Vec::len);
-        (0..count)
-            .map(|v| self.number(&format!("/views/{v}{pointer}")))
-            .collect()
+    pub fn mean(&self, get: impl Fn(&CertificateReport) -> f64) -> Result<f64, String> {
+        self.certified(get).map(|all| mean(&all))
     }
 
-    /// Mean over the views.
+    /// Sum over the views' certificates.
     ///
     /// # Errors
-    /// As [`Made::of_views`].
-    pub fn mean(&self, pointer: &str) -> Result<f64, String> {
-        let all = self.of_views(pointer)?;
-        Ok(all.iter().sum::<f64>() / all.len().max(1) as f64)
+    /// A view has none.
+    pub fn sum(&self, get: impl Fn(&CertificateReport) -> f64) -> Result<f64, String> {
+        Ok(self.certified(get)?.iter().sum())
     }
 
-    /// Sum over the views.
+    /// Largest of the views' certificates.
     ///
     /// # Errors
-    /// As [`Made::of_views`].
-    pub fn sum(&self, pointer: &str) -> Result<f64, String> {
-        Ok(self.of_views(pointer)?.iter().sum())
+    /// A view has none.
+    pub fn most(&self, get: impl Fn(&CertificateReport) -> f64) -> Result<f64, String> {
+        Ok(self.certified(get)?.into_iter().fold(0.0, f64::max))
     }
 
-    /// Largest of the views.
+    /// Pairs of faces of the optimised surfaces that go through each other.
     ///
     /// # Errors
-    /// As [`Made::of_views`].
-    pub fn most(&self, pointer: &str) -> Result<f64, String> {
-        Ok(self.of_views(pointer)?.into_iter().fold(0.0, f64::max))
+    /// A view's surface was not looked at.
+    pub fn self_intersections(&self) -> Result<f64, String> {
+        let crossings = |v: &ViewReport| v.certificate.as_ref()?.crossings;
+        let all = self.of_views("crossings", crossings)?;
+        Ok(all.iter().map(|c| c.self_intersections).sum::<usize>() as f64)
+    }
+
+    /// Depth groups of all views.
+    ///
+    /// # Errors
+    /// A view does not tell.
+    pub fn groups(&self) -> Result<f64, String> {
+        let all = self.of_views("number of groups", |v| v.groups)?;
+        Ok(all.iter().sum::<usize>() as f64)
+    }
+
+    /// Vertices and faces of all views' models.
+    pub fn sizes(&self) -> (f64, f64) {
+        let views = self.report.views.iter();
+        let sizes = views.map(|v| (v.vertices, v.faces));
+        let (vertices, faces): (Vec<usize>, Vec<usize>) = sizes.unzip();
+        let sum = |list: Vec<usize>| list.iter().sum::<usize>() as f64;
+        (sum(vertices), sum(faces))
+    }
+
+    /// Angles between the normals of model and solid: means over the views.
+    ///
+    /// # Errors
+    /// A view was not measured.
+    pub fn normal_errors(&self) -> Result<NormalError, String> {
+        let all = self.of_views("error of the normals", |v| v.normal_error_deg)?;
+        let of = |get: fn(&NormalError) -> f64| mean(&all.iter().map(get).collect::<Vec<_>>());
+        Ok(NormalError {
+            mean: of(|e| e.mean),
+            median: of(|e| e.median),
+            p90: of(|e| e.p90),
+        })
     }
 
     /// Mean angle between the normals of model and solid, degrees.
     ///
     /// # Errors
-    /// There is none.
+    /// A view was not measured.
     pub fn error_deg(&self) -> Result<f64, String> {
-        self.mean("/normal_error_deg/mean")
+        Ok(self.normal_errors()?.mean)
+    }
+
+    /// The first view.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn first_view(&self) -> Result<&ViewReport, String> {
+        self.report.views.first().ok_or_else(|| self.lacks("view"))
+    }
+
+    /// The program of the first view.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn program(&self) -> Result<&ProgramReport, String> {
+        let program = self.first_view()?.program.as_ref();
+        program.ok_or_else(|| self.lacks("program"))
+    }
+
+    /// The solid.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn solid(&self) -> Result<&SolidReport, String> {
+        self.report
+            .solid
+            .as_ref()
+            .ok_or_else(|| self.lacks("solid"))
     }
 
     /// A figure of a light of the first view.
     ///
     /// # Errors
-    /// The scene does not measure that light.
-    pub fn in_light(&self, light: &str, figure: &str) -> Result<f64, String> {
-        let lights = self.report.pointer("/views/0/lights");
-        let lights = lights.and_then(Value::as_array).into_iter().flatten();
-        lights
-            .filter(|l| l["light"] == light)
-            .find_map(|l| l[figure].as_f64())
-            .ok_or_else(|| format!("{} measures no {figure} in the light {light}", self.scene))
+    /// The scene does not measure it.
+    pub fn in_light(
+        &self,
+        light: &str,
+        get: impl Fn(&LightLikeness) -> Option<f64>,
+    ) -> Result<f64, String> {
+        let lights = self.first_view()?.lights.iter().flatten();
+        let mut of_light = lights.filter(|l| l.light == light);
+        of_light
+            .find_map(get)
+            .ok_or_else(|| format!("{} lacks a figure of the light {light}", self.scene))
     }
 
     /// Whether all holds that a build promises.
     pub fn keeps_promises(&self) -> bool {
-        self.report["ok"] == true
+        self.report.ok
     }
 
     /// How far reliefs leave their layers or had to be moved into them, millimetres.
@@ -97,8 +170,7 @@ impl Made {
     /// # Errors
     /// There is no certificate.
     pub fn outside_mm(&self) -> Result<f64, String> {
-        let violation = self.most("/certificate/bound_violation_mm")?;
-        Ok(violation.max(self.most("/certificate/clamp_mm")?))
+        self.most(|c| c.bound_violation_mm.max(c.clamp_mm))
     }
 
     /// Seconds of a stage; 0 if it did not run.
@@ -109,7 +181,7 @@ impl Made {
 
     /// Path of a file from the figures' folder.
     fn path(&self, file: &str) -> String {
-        format!("{}/{file}", self.order.folder)
+        format!("{}/{file}", self.job.folder)
     }
 
     /// Path of the file whose name `is` the one, from the figures' folder.
@@ -130,4 +202,8 @@ impl Made {
         let all = self.files.iter().filter(is_picture);
         all.map(|f| self.path(f)).collect()
     }
+}
+
+fn mean(all: &[f64]) -> f64 {
+    all.iter().sum::<f64>() / all.len().max(1) as f64
 }

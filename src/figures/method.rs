@@ -1,7 +1,9 @@
 //! How the method goes about it: Fig 8 and the inset at Eq 12.
 
+use super::figure::Figure;
+use super::findings::Findings;
+use super::made::Made;
 use super::workshop::{LEAN, Workshop, with};
-use super::{Figure, Findings};
 
 pub const GROUPS: Figure = Figure {
     name: "fig08",
@@ -13,7 +15,7 @@ pub const GROUPS: Figure = Figure {
 
 fn groups(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("hare on pillars", "fig08-groups", &[])?;
-    let groups = made.sum("/groups")?;
+    let groups = made.groups()?;
     found.case("hare on pillars", &made, &[("groups", groups)])?;
     let is_section = |f: &str| f.starts_with("groups-") && f.ends_with(".png");
     let section = made.file("section of its groups", is_section)?;
@@ -39,8 +41,8 @@ fn ordering(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let off = with(&["energy=Curvature(ordering: false)"], &LEAN);
     let off = shop.build("without order", scene, &off)?;
     let on = shop.build("with order", scene, &with(&["energy=Curvature()"], &LEAN))?;
-    let count = "/certificate/order_inversions";
-    let [before, after] = [off.sum(count)?, on.sum(count)?];
+    let count = |made: &Made| made.sum(|c| c.order_inversions as f64);
+    let [before, after] = [count(&off)?, count(&on)?];
     found.counter_case("without order", &off, &[("crossings", before)])?;
     found.case("with order", &on, &[("crossings", after)])?;
     found.claim(

@@ -1,7 +1,8 @@
 //! `index.html`: all figures on one page, the paper's statement beside the measurement.
 
+use super::figure::Done;
+use super::findings::{Case, Conclusion};
 use super::table::{names, number};
-use super::{Case, Claim, Done};
 use crate::formats::markup::escaped;
 use std::fmt::Write as _;
 
@@ -88,7 +89,7 @@ fn section(done: &Done) -> String {
     html
 }
 
-fn claim(claim: &Claim) -> String {
+fn claim(claim: &Conclusion) -> String {
     let (sign, class) = sign(claim.holds);
     format!(
         "<li>{} <span class=\"{class}\">({sign})</span></li>\n",

@@ -1,8 +1,9 @@
 //! Reliefs on supports of all kinds: Figs 3, 4, 12 to 17.
 
-use super::findings::Number;
+use super::figure::Figure;
+use super::findings::{Findings, Number};
+use super::made::Made;
 use super::workshop::{LEAN, Workshop, with};
-use super::{Figure, Findings, Made};
 
 /// What a certificate may be off by for rounding, millimetres.
 const EXACT_MM: f64 = 1e-6;
@@ -22,11 +23,11 @@ fn stairs(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let never = with(&["energy=Normal(steps: Never)"], &LEAN);
     let whole = shop.build("in one piece", "fig03-stairs", &never)?;
     for (name, made) in [("with steps", &torn), ("in one piece", &whole)] {
-        let groups = made.sum("/groups")?;
+        let groups = made.groups()?;
         found.case(name, made, &[("groups", groups), layer(made)?.0])?;
     }
     within(found, &torn, 8.0, 0.0)?;
-    let groups = torn.sum("/groups")?;
+    let groups = torn.groups()?;
     found.claim(
         groups >= 5.0,
         format!("{groups} groups lie on the treads and risers of six steps"),
@@ -63,9 +64,9 @@ pub const FREE: Figure = Figure {
 
 fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("arm and ear free", "fig12-free", &[])?;
-    let inversions = made.sum("/certificate/order_inversions")?;
-    let crossings = made.sum("/certificate/crossings/self_intersections")?;
-    let parts = made.number("/solid/parts")?;
+    let inversions = made.sum(|c| c.order_inversions as f64)?;
+    let crossings = made.self_intersections()?;
+    let parts = made.solid()?.parts as f64;
     found.case(
         "arm and ear free",
         &made,
@@ -84,7 +85,7 @@ fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
         inversions == 0.0 && crossings == 0.0,
         format!("front, back and what is hidden keep their order: {inversions} inversions, {crossings} faces through each other"),
     );
-    let off = made.most("/certificate/relief_front_mm")?;
+    let off = made.most(|c| c.relief_front_mm)?;
     found.claim(
         off > 5.0,
         format!(
@@ -130,15 +131,12 @@ pub const FOREST: Figure = Figure {
 
 fn forest(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("forest", "../four-creatures", &[])?;
-    let camouflage = made.report["camouflage"].as_array().map_or(0, Vec::len);
-    let half = (0..camouflage)
-        .filter_map(|v| {
-            made.number(&format!("/camouflage/{v}/half_likeness_deg"))
-                .ok()
-        })
+    let halves = made.report.camouflage.iter();
+    let half = halves
+        .filter_map(|c| c.half_likeness_deg)
         .fold(0.0, f64::max);
-    let groups = made.sum("/groups")?;
-    let coverage = made.mean("/certificate/coverage")?;
+    let groups = made.groups()?;
+    let coverage = made.mean(|c| c.coverage)?;
     found.case(
         "forest",
         &made,
@@ -171,8 +169,8 @@ pub const STRIPS: Figure = Figure {
 
 fn strips(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("five heads", "fig16-strips", &[])?;
-    let groups = made.sum("/groups")?;
-    let vertices = made.sum("/vertices")?;
+    let groups = made.groups()?;
+    let vertices = made.sizes().0;
     let (front, back) = layer(&made)?;
     found.case(
         "five heads",
@@ -195,7 +193,7 @@ pub const HERD: Figure = Figure {
 
 fn herd(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let made = shop.build("herd", "fig17-herd", &[])?;
-    let groups = made.sum("/groups")?;
+    let groups = made.groups()?;
     let (front, back) = layer(&made)?;
     found.case("herd", &made, &[("groups", groups), front, back])?;
     found.claim(
@@ -209,8 +207,8 @@ fn herd(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
 
 /// How far reliefs come before their datum and go behind it.
 pub fn layer(made: &Made) -> Result<(Number, Number), String> {
-    let front = made.most("/certificate/relief_front_mm")?;
-    let back = made.most("/certificate/relief_back_mm")?;
+    let front = made.most(|c| c.relief_front_mm)?;
+    let back = made.most(|c| c.relief_back_mm)?;
     Ok((("relief_front_mm", front), ("relief_back_mm", back)))
 }
 
@@ -229,9 +227,9 @@ fn within(found: &mut Findings, made: &Made, front: f64, back: f64) -> Result<()
 
 /// That every eye sees its models, whole.
 fn appears(found: &mut Findings, made: &Made) -> Result<(), String> {
-    let coverage = made.mean("/certificate/reaching")?;
+    let coverage = made.mean(|c| c.reaching)?;
     let error = made.error_deg()?;
-    let views = made.of_views("/certificate/reaching")?.len();
+    let views = made.report.views.len();
     let eyes = match views {
         1 => "the eye sees".to_owned(),
         n => format!("{n} eyes see"),

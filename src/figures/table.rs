@@ -1,6 +1,7 @@
 //! `figures.md`: what the paper says beside what was measured, as a table.
 
-use super::{Case, Done};
+use super::figure::Done;
+use super::findings::Case;
 use std::fmt::Write as _;
 
 /// A table of figures, then one of cases for each.

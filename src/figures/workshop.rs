@@ -1,31 +1,21 @@
 //! Where scenes are built for figures: every case once, however many figures look at it.
 
+use super::job::Job;
 use super::made::Made;
 use std::rc::Rc;
 
-/// A scene to be built.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Order {
-    /// Path of the scene without ending, from the folder of the paper's scenes.
-    pub scene: String,
-    /// Values of it that are changed, as on the command line.
-    pub sets: Vec<String>,
-    /// Where its files go, from the figures' own folder.
-    pub folder: String,
-}
-
 /// Builds a scene and writes its files, even where they are not all that a build promises.
-pub type Build<'a> = &'a mut dyn FnMut(&Order) -> Result<Made, String>;
+pub type BuildJob<'a> = &'a mut dyn FnMut(&Job) -> Result<Made, String>;
 
 /// See the module.
 pub struct Workshop<'a> {
-    build: Build<'a>,
+    build: BuildJob<'a>,
     figure: &'static str,
     made: Vec<Rc<Made>>,
 }
 
 impl<'a> Workshop<'a> {
-    pub fn new(build: Build<'a>) -> Self {
+    pub fn new(build: BuildJob<'a>) -> Self {
         Self {
             build,
             figure: "",
@@ -44,16 +34,16 @@ impl<'a> Workshop<'a> {
     /// Why it cannot be built.
     pub fn build(&mut self, case: &str, scene: &str, sets: &[&str]) -> Result<Rc<Made>, String> {
         let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
-        let same = |m: &&Rc<Made>| m.order.scene == scene && m.order.sets == sets;
+        let same = |m: &&Rc<Made>| m.job.scene == scene && m.job.sets == sets;
         if let Some(made) = self.made.iter().find(same) {
             return Ok(made.clone());
         }
-        let order = Order {
+        let job = Job {
             scene: scene.to_owned(),
             sets,
             folder: format!("{}/{}", self.figure, slug(case)),
         };
-        let made = (self.build)(&order).map_err(|why| format!("{case}: {why}"))?;
+        let made = (self.build)(&job).map_err(|why| format!("{case}: {why}"))?;
         self.made.push(Rc::new(made));
         Ok(self.made[self.made.len() - 1].clone())
     }

@@ -15,7 +15,7 @@ pub fn moved(image: &Image, depths: &Depths) -> TriMesh {
 }
 
 /// What crosses in an optimised surface, hidden parts included, before it is cut and scaled back.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Crossings {
     /// Events (a vertex inside the image of a face, or two edges that cross in the image) at which a farther sheet comes before a
     /// nearer one.

@@ -1,9 +1,9 @@
 //! How an iteration of the Laplacian went.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How an iteration went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Iterated {
     /// Rounds allowed.
     pub allowed: u32,
@@ -17,7 +17,7 @@ pub struct Iterated {
 }
 
 /// One round.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Round {
     /// Largest change of a seen vertex's relative depth, as a share of the layer's width.
     pub change: f64,
@@ -26,7 +26,7 @@ pub struct Round {
 }
 
 /// How it ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The last change is below the tolerance.

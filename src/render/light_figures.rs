@@ -2,13 +2,13 @@
 
 use crate::render::caster::{PAPER, SPAN, Term};
 use crate::render::stage::{FLASH_LAMP, Lit, SKY_LAMP, SUNS_DEG};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Variance of a shade below which it counts as the same everywhere: rounding leaves 1e-32, one facet in ten thousand pixels 1e-9.
 const FLAT: f64 = 1e-18;
 
 /// How a view looks in one light: the forest against the model. Means of the two sides for a sun.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightLikeness {
     /// `sun_15`, `sun_30`, `sun_60`, `overcast` or `flash`.
     pub light: String,

@@ -9,7 +9,7 @@ use crate::mesh::DisjointSets;
 use crate::mimic::Depths;
 use crate::viewmap::{Image, Target};
 use glam::{DVec2, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Lower steps are none: the relief makes one level of them.
 const STEP_MM: f64 = 3e-3;
@@ -29,7 +29,7 @@ pub struct StepLine {
 }
 
 /// The tears of a view in figures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepSummary {
     /// Lines along which two pieces meet in a step.
     pub lines: usize,

@@ -6,7 +6,7 @@ use super::map::{ViewMap, ViewMapError};
 use super::seen::view_map;
 use super::target::Target;
 use crate::index::{CellId, FacetId, SupportId};
-use crate::ladder::{Ladder, Rung};
+use crate::ladder::Ladder;
 use crate::support::{Hits, Slab};
 use crate::view::View;
 use glam::DVec2;
@@ -35,13 +35,9 @@ impl<'a> Image<'a> {
     }
 
     /// Which of its snapping grids held.
-    pub fn rung(&self) -> Rung {
-        Rung {
-            ladder: Ladder::SnappingGrid,
-            place: self.view.name.clone(),
-            held: self.map.grid,
-            of: GRIDS.len(),
-        }
+    pub fn ladder(&self) -> Ladder {
+        let view = Some(self.view.name.as_str());
+        Ladder::new("snapping grid of a view map", view, self.map.grid, GRIDS.len())
     }
 
     /// The same surface cut along lines that the eye cannot see.

@@ -7,6 +7,7 @@ use crate::kinds::Split;
 use crate::mimic::{RowKind, SolveError};
 use crate::sight::{Sight, Unseen};
 use crate::support::Support;
+use crate::words::carrier::carrier;
 
 /// Why a view has no sight.
 pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnostic> {
@@ -14,9 +15,10 @@ pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnosti
     match found {
         Unseen::Image(error) => failed(&error.to_string()),
         Unseen::Thin(thin) => thin.iter().map(|t| too_thin(view, supports, t)).collect(),
-        Unseen::NotCarried => {
-            failed("no pillar stands behind or in its models, so nothing of them can appear")
-        }
+        Unseen::NotCarried => failed(&format!(
+            "no {} stands behind or in its models, so nothing of them can appear",
+            carrier(supports)
+        )),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::shapes::{Outcome, Setting, ball, obj};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
-use pillarforest::compile::{self, Build, Goal};
+use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::groups::layer_in;
 use pillarforest::intake::load_model;
@@ -70,8 +70,7 @@ fn good(supports: &str) -> Scene {
 }
 
 fn built(scene: &Scene) -> Build {
-    compile::run(scene, Goal::All, &|_, _| {}, &|| false)
-        .unwrap_or_else(|problems| panic!("{problems:?}"))
+    compile::build(scene, &|_, _| {}, &|| false).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
 fn forest(build: &Build) -> TriMesh {
@@ -287,7 +286,7 @@ fn layers_that_cut_a_body_through_are_refused_with_the_room_there_is() {
     let scene = good(
         "Groove(width: 80, height: 80, opening: 70, deep: 30, thickness: 33, at: (0, 20, 0), depth: (front: 1, back: 5))",
     );
-    let problems = compile::run(&scene, Goal::Check, &|_, _| {}, &|| false).expect_err("too deep");
+    let problems = compile::check(&scene, &|_, _| {}, &|| false).expect_err("too deep");
     assert!(
         problems[0].message.starts_with("groove leaves -"),
         "{problems:?}"

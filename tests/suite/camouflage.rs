@@ -5,7 +5,7 @@ use crate::shapes::{BLUE, MIDDLE, ORANGE, ball, bumpy, prism, ring, view};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::certify::camouflage::{ANGLES_DEG, Camouflage, camouflage, largest_beyond};
-use pillarforest::compile::{Build, Goal, run};
+use pillarforest::compile::{self, Build, build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::diagram::curves::{Curve, curves};
 use pillarforest::geom::half_angle;
@@ -157,7 +157,7 @@ const TWO_BLOCKS: &str = r#"(
 fn built(text: &str) -> (Build, serde_json::Value) {
     let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
     let scene = scene::resolve(text, &read).expect("a scene").value;
-    let build = run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest");
+    let build = build(&scene, &|_, _| {}, &|| false).expect("a forest");
     let file = build.files.iter().find(|f| f.path == "report.json");
     let report = serde_json::from_slice(&file.expect("a report").bytes).unwrap();
     (build, report)
@@ -198,11 +198,9 @@ fn a_scene_may_do_without_camouflage_but_not_without_tolerance() {
     // The disc at the eye and what it means.
     let plan = full.files.iter().find(|f| f.path == "plan.svg").unwrap();
     assert!(String::from_utf8_lossy(&plan.bytes).contains("disc at an eye"));
-    let scene_only = |goal| {
-        let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
-        let scene = scene::resolve(TWO_BLOCKS, &read).expect("a scene").value;
-        run(&scene, goal, &|_, _| {}, &|| false).expect("a plan")
-    };
-    let bare = &scene_only(Goal::Plan).files[0];
+    let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
+    let scene = scene::resolve(TWO_BLOCKS, &read).expect("a scene").value;
+    let bare = compile::plan(&scene, &|_, _| {}, &|| false).expect("a plan");
+    let bare = &bare.files[0];
     assert!(!String::from_utf8_lossy(&bare.bytes).contains("disc at an eye"));
 }

@@ -19,6 +19,7 @@ use pillarforest::scene::defaults;
 use pillarforest::support::{Datum, Layer, Support};
 use pillarforest::view::View;
 use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
+use pillarforest::words;
 
 /// One eye with its map and groups.
 struct Sight {
@@ -329,7 +330,7 @@ fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
         let told: f64 = owned.map(|g| g.arcmin2).sum();
         assert!((told / lost - 1.0).abs() < 1e-9, "{told} told, {lost} lost");
         assert_eq!(coverage.gaps[0].view.as_deref(), Some(names[1 - loser]));
-        let told = coverage.warnings(names[loser]);
+        let told = words::coverage::warnings(names[loser], &coverage, "pillar");
         assert!(told[0].message.contains(&supports[0].name), "{told:?}");
     }
     let sights = sharing(&field, [20.0, 20.0]);
@@ -421,7 +422,11 @@ fn a_pillar_that_is_too_short_is_named_with_what_it_lacks() {
     );
     assert!(gap.up_deg > 0.0 && gap.right_deg.abs() < 0.5);
     assert!((DVec3::from(gap.place_mm).y + 25.0).abs() < 1e-9);
-    assert!(coverage.warnings("a")[0].message.contains("too short"));
+    assert!(
+        words::coverage::warnings("a", &coverage, "pillar")[0]
+            .message
+            .contains("too short")
+    );
 }
 
 #[test]
@@ -457,7 +462,7 @@ fn gaps_beside_a_pillar_and_before_the_base_have_their_causes() {
             .map(|g| &g.support)
             .all(|s| s.as_deref() == Some("base"))
     );
-    assert_eq!(coverage.warnings("a").len(), 2);
+    assert_eq!(words::coverage::warnings("a", &coverage, "pillar").len(), 2);
 }
 
 /// The finished forest of some views.
@@ -552,7 +557,7 @@ fn rays_find_a_finished_forest_free_and_a_box_before_it() {
     );
     let lost = found.lost_sr[0] * SQUARE_ARCMIN;
     assert!((lost - arcmin2).abs() < 1e-4 * whole);
-    assert!(!found.warnings("a").is_empty());
+    assert!(!words::conflicts::warnings("a", &found, "pillar").is_empty());
 }
 
 #[test]

@@ -1,12 +1,18 @@
 //! The paper's figures: their scenes, what is claimed of what was measured, and the page, table and rows that tell it.
 
 use assert_cmd::Command;
+use pillarforest::certify::camouflage::Camouflage;
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::{
-    Done, FIGURES, Figure, Made, Order, Workshop, files, json, make, page,
+use pillarforest::figures::{Done, FIGURES, Figure, Job, Made, Workshop, files, json, make, page};
+use pillarforest::ladder::Ladder;
+use pillarforest::mimic::{Ending, Iterated, Round};
+use pillarforest::render::LightLikeness;
+use pillarforest::report::{
+    CertificateReport, NormalError, PrintReport, ProgramReport, Report, SolidReport, ViewReport,
 };
 use pillarforest::scene;
-use serde_json::{Value, json};
+use pillarforest::whole::Crossings;
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,37 +21,89 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn scene_path(order: &Order) -> PathBuf {
+fn scene_path(order: &Job) -> PathBuf {
     root()
         .join("scenes/paper")
         .join(format!("{}.ron", order.scene))
 }
 
 /// The report of a build in which everything is well: one view, errors of `error` degrees, `crossings`.
-fn report(error: f64, crossings: u32) -> Value {
-    let light = |name: &str, rmse: f64| json!({ "light": name, "rmse": rmse, "rmse_unshadowed": rmse / 4.0, "false_shadow_share": 0.2 });
-    json!({
-        "ok": true,
-        "views": [{
-            "vertices": 1000, "faces": 1996, "groups": 5,
-            "normal_error_deg": { "mean": error, "median": error, "p90": error },
-            "certificate": {
-                "bound_violation_mm": 0.0, "clamp_mm": 0.0, "relief_front_mm": 1.0, "relief_back_mm": 0.5,
-                "order_inversions": crossings, "crossings": { "self_intersections": 0 }, "coverage": 1.0, "reaching": 1.0
-            },
-            "program": { "objective": 2.0 },
-            "iterated": { "ending": "converged", "rounds": [{ "change": 0.5 }, { "change": 1e-9 }] },
-            "lights": [light("overcast", 40.0), light("sun_15", 90.0), light("sun_30", 80.0), light("sun_60", 60.0), light("flash", 99.0)],
+fn report(error: f64, crossings: usize) -> Report {
+    let light = |name: &str, rmse: f64| LightLikeness {
+        light: name.into(),
+        elevation_deg: None,
+        rmse,
+        rmse_unshadowed: rmse / 4.0,
+        gain: 1.0,
+        rmse_fitted: rmse,
+        correlation: None,
+        false_shadow_share: Some(0.2),
+        lost_shadow_share: None,
+    };
+    let certificate = CertificateReport {
+        relief_front_mm: 1.0,
+        relief_back_mm: 0.5,
+        order_inversions: crossings,
+        crossings: Some(Crossings::default()),
+        coverage: 1.0,
+        reaching: 1.0,
+        ..CertificateReport::default()
+    };
+    let round = |change: f64| Round {
+        change,
+        turned_deg: 1.0,
+    };
+    let view = ViewReport {
+        vertices: 1000,
+        faces: 1996,
+        groups: Some(5),
+        normal_error_deg: Some(NormalError {
+            mean: error,
+            median: error,
+            p90: error,
+        }),
+        certificate: Some(certificate),
+        program: Some(ProgramReport {
+            objective: 2.0,
+            ..ProgramReport::default()
+        }),
+        iterated: Some(Iterated {
+            allowed: 2,
+            rounds: vec![round(0.5), round(1e-9)],
+            ending: Ending::Converged,
+            kept: 2,
+            linearised_deg: 2.0,
+            kept_deg: 1.0,
+        }),
+        lights: Some(vec![
+            light("overcast", 40.0),
+            light("sun_15", 90.0),
+            light("sun_30", 80.0),
+            light("sun_60", 60.0),
+            light("flash", 99.0),
+        ]),
+        ..ViewReport::default()
+    };
+    Report {
+        ok: true,
+        views: vec![view],
+        solid: Some(SolidReport {
+            parts: 1,
+            size_mm: [240.0, 10.0, 190.0],
+            ..SolidReport::default()
+        }),
+        camouflage: vec![Camouflage {
+            half_likeness_deg: Some(8.0),
+            ..Camouflage::default()
         }],
-        "solid": { "parts": 1, "size_mm": [240.0, 10.0, 190.0] },
-        "camouflage": [{ "half_likeness_deg": 8.0 }],
-    })
+        ..Report::default()
+    }
 }
 
-fn made_of(order: &Order, report: Value) -> Made {
+fn made_of(job: &Job, report: Report) -> Made {
     Made {
-        order: order.clone(),
-        scene: scene_path(order).display().to_string(),
+        job: job.clone(),
+        scene: scene_path(job).display().to_string(),
         report,
         seconds: 1.5,
         stages: vec![("quadratic programs".into(), 0.5)],
@@ -65,9 +123,9 @@ fn made_of(order: &Order, report: Value) -> Made {
 }
 
 /// All figures from builds whose report `of` makes up.
-fn all(of: &dyn Fn(&Order) -> Result<Value, String>) -> (Vec<Done>, Vec<Order>) {
+fn all(of: &dyn Fn(&Job) -> Result<Report, String>) -> (Vec<Done>, Vec<Job>) {
     let mut orders = Vec::new();
-    let mut build = |order: &Order| {
+    let mut build = |order: &Job| {
         orders.push(order.clone());
         of(order).map(|report| made_of(order, report))
     };
@@ -128,7 +186,7 @@ fn no_case_is_built_twice_and_none_into_the_files_of_another() {
 #[test]
 fn claims_follow_from_what_was_measured() {
     // Crossings only without order, larger errors only without the scale factor: both claims hold, others that compare do not.
-    let telling = |order: &Order| {
+    let telling = |order: &Job| {
         let has = |word: &str| order.sets.iter().any(|s| s.contains(word));
         Ok(report(
             if has("scale_invariant: false") {
@@ -153,7 +211,7 @@ fn claims_follow_from_what_was_measured() {
 
 #[test]
 fn a_build_that_fails_spoils_its_figure_alone() {
-    let fails = |order: &Order| match order.scene.as_str() {
+    let fails = |order: &Job| match order.scene.as_str() {
         "fig13-wave" => Err("no depths satisfy all bounds".to_owned()),
         _ => Ok(report(10.0, 0)),
     };
@@ -228,6 +286,15 @@ fn pages_show_every_figure_and_only_pictures_that_exist() {
         page.matches("<figure>").count(),
         page.matches("</figure>").count()
     );
+}
+
+#[test]
+fn a_report_that_was_written_reads_back() {
+    let mut report = report(10.0, 3);
+    report.ladders = vec![Ladder::new("place of a piece", Some("pillar-1"), 2, 5)];
+    report.print = vec![PrintReport::default()];
+    let back = Report::read(report.json().as_bytes()).expect("a report");
+    assert_eq!(back, report);
 }
 
 #[test]

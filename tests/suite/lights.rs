@@ -4,7 +4,7 @@ use crate::scene::CUBE;
 use crate::shapes::{ORANGE, ball, view};
 use glam::{DMat4, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::compile::{Goal, run};
+use pillarforest::compile::build;
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::ImagePlane;
 use pillarforest::mesh::TriMesh;
@@ -521,7 +521,7 @@ fn a_scene_may_do_without_light() {
     let built = |text: &str| {
         let read = |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(CUBE.into()) };
         let scene = scene::resolve(text, &read).expect("a scene").value;
-        run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest")
+        build(&scene, &|_, _| {}, &|| false).expect("a forest")
     };
     let dark = built(&scene::set(ONE_BLOCK, "output.lights=false").expect("a field"));
     let report = |build: &pillarforest::compile::Build| -> serde_json::Value {

@@ -6,7 +6,7 @@ use super::shapes::{
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::certify::layer::bound_violation_mm;
-use pillarforest::compile::{self, Build, Goal};
+use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::{FAR_MM, ImagePlane, READING_MM};
 use pillarforest::mesh::TriMesh;
@@ -277,8 +277,7 @@ fn blocks(more: &str) -> Scene {
 }
 
 fn built(scene: &Scene) -> Build {
-    compile::run(scene, Goal::All, &|_, _| {}, &|| false)
-        .unwrap_or_else(|problems| panic!("{problems:?}"))
+    compile::build(scene, &|_, _| {}, &|| false).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
 fn bytes<'a>(build: &'a Build, path: &str) -> &'a [u8] {

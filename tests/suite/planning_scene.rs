@@ -3,7 +3,7 @@
 
 use crate::cli::{CUBE, folder, run};
 use glam::{DVec2, DVec3};
-use pillarforest::compile::{self, Goal};
+use pillarforest::compile;
 use pillarforest::diag::{Diagnostic, Place, Warned};
 use pillarforest::geom::{contains, polygon_area, to_segment};
 use pillarforest::planner::{Adjustment, Brief, Ended, Matters, Pillar, Planned, Watch};
@@ -730,7 +730,7 @@ fn a_scene_with_pillars_to_be_found_is_planned_first() {
     let (laid, plan) = compile::planned(&scene, watch).expect("a plan");
     assert_eq!(pillars(&laid).len(), plan.pillars.len());
     assert!(pillars(&laid).iter().all(|p| p.name.starts_with("front-")));
-    let build = compile::run(&scene, Goal::Plan, &|_, _| {}, &|| false).expect("a plan");
+    let build = compile::plan(&scene, &|_, _| {}, &|| false).expect("a plan");
     let paths: Vec<&str> = build.files.iter().map(|f| f.path.as_str()).collect();
     assert_eq!(paths, ["plan.svg", "plan.png", "layout.ron"]);
     let layout = scene::layout_text(&scene, &plan);
@@ -739,8 +739,8 @@ fn a_scene_with_pillars_to_be_found_is_planned_first() {
     assert_eq!(pillars(&back.expect("a scene").value), pillars(&laid));
     let outputs = compile::plan_outputs(&scene, &plan);
     assert_eq!(outputs[0].path, "layout.ron");
-    let check = compile::run(&scene, Goal::Check, &|_, _| {}, &|| false).expect("a check");
-    assert!(check.files.is_empty());
+    let told = compile::check(&scene, &|_, _| {}, &|| false).expect("a check");
+    assert!(told.iter().all(|d| !d.is_error()), "{told:?}");
     // What is listed needs no plan.
     let told = compile::planned(&laid, watch).expect_err("nothing to plan");
     assert!(told[0].message.contains("nothing to plan"), "{told:?}");

@@ -3,10 +3,11 @@
 use super::shapes::{base, boxes, pillar, prism, ring};
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::certify::printability::{PrintCheck, PrintLimits, Subject, printability};
+use pillarforest::certify::printability::{PrintCheck, PrintLimits, Printed, printability};
 use pillarforest::geom::inscribed;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::support::{Datum, Support, SupportKind};
+use pillarforest::words::print::note;
 
 const LIMITS: PrintLimits = PrintLimits {
     nozzle: 0.4,
@@ -20,18 +21,18 @@ fn checks(mesh: TriMesh, supports: &[Support], bodies: &[(String, DVec3)]) -> Ve
     let whole = Solid::new(mesh).unwrap();
     let standing: Vec<Solid> = supports.iter().map(|_| whole.clone()).collect();
     let bvh = Bvh::new(whole.mesh());
-    let subject = Subject {
+    let printed = Printed {
         supports,
         whole: &whole,
         bvh: &bvh,
         standing: &standing,
         bodies,
     };
-    printability(&subject, &LIMITS)
+    printability(&printed, &LIMITS)
 }
 
 fn found(checks: &[PrintCheck], name: &str) -> PrintCheck {
-    let check = checks.iter().find(|c| c.check == name);
+    let check = checks.iter().find(|c| c.finding.name() == name);
     check.unwrap_or_else(|| panic!("no {name}")).clone()
 }
 
@@ -83,7 +84,10 @@ fn a_sharp_lip_and_a_small_film_are_no_walls() {
     let film = (v(19.0, 9.0, 8.0), v(26.0, 9.1, 11.0));
     let wall = of(boxes(&[block, film]), "wall");
     assert!(wall.ok, "{wall:?}");
-    assert!(wall.note.contains("will not be printed"), "{wall:?}");
+    assert!(
+        note(&wall, "pillar").contains("will not be printed"),
+        "{wall:?}"
+    );
 }
 
 #[test]
@@ -203,7 +207,7 @@ fn the_neck_of_a_pillar_carved_from_two_sides_is_its_core() {
     assert!((core.value_mm - 0.4).abs() < 0.011, "{core:?}");
     near(core.wanted_mm, 0.5);
     assert!(!core.ok);
-    assert!(core.note.contains("3.2 mm2"), "{core:?}");
+    assert!(note(&core, "pillar").contains("3.2 mm2"), "{core:?}");
     assert!((15.0..25.0).contains(&core.place[2]), "{core:?}");
 }
 

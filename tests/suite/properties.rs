@@ -6,7 +6,7 @@
 use crate::dense::{Hits, Raster, allowed};
 use crate::shapes::{CUBE_FACES, ball, ring, wavy};
 use glam::{DVec2, DVec3};
-use pillarforest::compile::{self, Build, Goal};
+use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::{NamedMesh, read_bodies};
 use pillarforest::mesh::TriMesh;
@@ -286,7 +286,7 @@ fn tried(draft: &Draft) -> Result<End, String> {
     let text = draft.text();
     let run = || {
         let scene = scene::resolve(&text, &model)?.value;
-        let build = compile::run(&scene, Goal::All, &|_, _| {}, &|| false)?;
+        let build = compile::build(&scene, &|_, _| {}, &|| false)?;
         Ok((scene, build))
     };
     let result: Result<(Scene, Build), Vec<Diagnostic>> =

@@ -290,7 +290,7 @@ fn a_report_can_be_read_back_and_knows_no_clock() {
     let report = Report {
         scene: "grove".into(),
         views: vec![ViewReport::new(&owl).with_likeness(&figures)],
-        solid: Some(SolidReport::new(&solid, vec![])),
+        solid: Some(SolidReport::new(&solid)),
         ..Report::default()
     };
     let json = report.json();

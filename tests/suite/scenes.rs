@@ -4,7 +4,7 @@
 
 use crate::golden;
 use glam::DVec3;
-use pillarforest::compile::{Build, Goal, OutputFile, run};
+use pillarforest::compile::{Build, OutputFile, build, check, plan};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::read_mesh;
 use pillarforest::intake::{Inspection, inspect};
@@ -56,8 +56,8 @@ fn resolved(name: &str) -> Scene {
         .value
 }
 
-fn made(scene: &Scene, goal: Goal) -> Build {
-    run(scene, goal, &|_, _| {}, &|| false)
+fn made(scene: &Scene) -> Build {
+    build(scene, &|_, _| {}, &|| false)
         .unwrap_or_else(|problems| panic!("{}: {problems:?}", scene.title))
 }
 
@@ -85,7 +85,7 @@ fn built(name: &str) -> &'static Built {
     };
     slot.get_or_init(|| {
         let scene = resolved(name);
-        let build = with_threads(2, || made(&scene, Goal::All));
+        let build = with_threads(2, || made(&scene));
         let report = serde_json::from_slice(bytes(&build, "report.json")).unwrap();
         Built {
             scene,
@@ -312,7 +312,7 @@ fn defects(build: &Build) -> usize {
 #[test]
 fn one_thread_and_two_give_the_same_bytes() {
     let first = &built("minimal").build;
-    let second = with_threads(1, || made(&resolved("minimal"), Goal::All));
+    let second = with_threads(1, || made(&resolved("minimal")));
     assert_eq!(first.summary, second.summary);
     assert_eq!(first.files.len(), second.files.len());
     for (a, b) in first.files.iter().zip(&second.files) {
@@ -325,10 +325,9 @@ fn one_thread_and_two_give_the_same_bytes() {
 fn pictures_are_the_golden_ones() {
     let mut four = resolved("four-creatures");
     four.output.plan_width = 900;
-    golden::picture(
-        "four-creatures-plan.png",
-        bytes(&made(&four, Goal::Plan), "plan.png"),
-    );
+    let drawn = plan(&four, &|_, _| {}, &|| false).expect("a plan");
+    let png = drawn.files.iter().find(|f| f.path == "plan.png");
+    golden::picture("four-creatures-plan.png", &png.expect("a plan").bytes);
     golden::picture("owl.png", bytes(&built("minimal").build, "views/owl.png"));
 }
 
@@ -397,7 +396,7 @@ fn a_layer_without_core_is_told_with_view_and_pillar() {
             layer.core = 3.5;
         }
     }
-    let problems = run(&scene, Goal::Check, &|_, _| {}, &|| false).expect_err("no core is left");
+    let problems = check(&scene, &|_, _| {}, &|| false).expect_err("no core is left");
     let pillars = scene.supports.iter().filter(|s| s.layer.is_some());
     for (pillar, problem) in pillars.zip(&problems) {
         assert!(

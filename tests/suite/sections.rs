@@ -2,7 +2,7 @@
 
 use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, obj};
 use glam::DVec2;
-use pillarforest::compile::{Build, Goal, run};
+use pillarforest::compile::{Build, build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::diagram::section::{Section, groups_sheet, section};
 use pillarforest::geom::{barycentric, polygon_area};
@@ -160,7 +160,7 @@ fn built(text: &str) -> Build {
     let read =
         |_: &str| -> Result<Vec<u8>, Diagnostic> { Ok(obj(&ball(glam::DVec3::ZERO, 1.0, 12))) };
     let scene = scene::resolve(text, &read).expect("a scene").value;
-    run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest")
+    build(&scene, &|_, _| {}, &|| false).expect("a forest")
 }
 
 fn text(supports: &str, energy: &str, eye_z: &str) -> String {

@@ -7,7 +7,7 @@ use manifold_rust::manifold::Manifold;
 use pillarforest::diagram::layout;
 use pillarforest::geom::{contains, polygon_area};
 use pillarforest::mesh::{Solid, TriMesh};
-use pillarforest::split::{Lettering, Piece, Split, SplitError, SplitOptions, split};
+use pillarforest::split::{Lettering, Piece, PlateNumber, Split, SplitError, SplitOptions, split};
 use pillarforest::support::{Datum, Support, SupportKind};
 
 const CLEARANCE: f64 = 0.15;
@@ -97,8 +97,8 @@ fn near(a: f64, b: f64, within: f64) {
 /// Cubic millimetres of all numbers engraved in plates.
 fn numbers(split: &Split) -> f64 {
     let of = |s: &pillarforest::split::Socket| {
-        let (at, stroke) = s.label.expect("room for the number");
-        0.6 * engraved_area(s.number, at, stroke)
+        let label = s.label.expect("room for the number");
+        0.6 * engraved_area(s.number, label.middle, label.stroke)
     };
     split.sockets.iter().map(of).sum()
 }
@@ -237,7 +237,9 @@ fn a_number_is_engraved_on_free_ground() {
     let supports = grove();
     let split = divided(&supports);
     for socket in &split.sockets {
-        let (at, stroke) = socket.label.unwrap();
+        let PlateNumber {
+            middle: at, stroke, ..
+        } = socket.label.unwrap();
         let half = Lettering::new(socket.number).size() * stroke / 2.0;
         for corner in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
             let p = at + half * DVec2::from(corner);

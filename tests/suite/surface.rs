@@ -2,7 +2,7 @@
 
 use crate::shapes::{Setting, ball};
 use glam::{DVec2, DVec3};
-use pillarforest::compile::{Goal, run};
+use pillarforest::compile::build;
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::ImagePlane;
 use pillarforest::groups::groups;
@@ -99,7 +99,7 @@ fn written(energy: &str) -> Written {
     let scene = scene::resolve(&SCENE.replace("ENERGY", energy), &read)
         .expect("a scene")
         .value;
-    let build = run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest");
+    let build = build(&scene, &|_, _| {}, &|| false).expect("a forest");
     let bytes = |path: &str| {
         let file = build.files.iter().find(|f| f.path == path);
         &file.unwrap_or_else(|| panic!("no {path}")).bytes
@@ -423,6 +423,6 @@ fn surfaces_are_written_only_if_wanted() {
         .replace("ENERGY", "Normal()")
         .replace("surface: true, ", "");
     let scene = scene::resolve(&text, &read).expect("a scene").value;
-    let build = run(&scene, Goal::All, &|_, _| {}, &|| false).expect("a forest");
+    let build = build(&scene, &|_, _| {}, &|| false).expect("a forest");
     assert!(build.files.iter().all(|f| !f.path.starts_with("surface")));
 }

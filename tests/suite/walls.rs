@@ -2,7 +2,7 @@
 
 use super::shapes::{Outcome, Setting, ball, obj};
 use glam::{DVec2, DVec3};
-use pillarforest::compile::{self, Goal};
+use pillarforest::compile;
 use pillarforest::diag::Diagnostic;
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
@@ -118,7 +118,7 @@ fn a_vase_is_carved_and_printable() {
     let mut errors = Vec::new();
     for depth in ["front: 1, back: 0.5", "hits: (1, 2), front: 1, core: 1.5"] {
         let scene = scene(depth, "Never");
-        let build = compile::run(&scene, Goal::All, &|_, _| {}, &|| false)
+        let build = compile::build(&scene, &|_, _| {}, &|| false)
             .unwrap_or_else(|problems| panic!("{depth}: {problems:?}"));
         assert!(build.failures.is_empty(), "{depth}: {:?}", build.failures);
         let file = |name: &str| {

@@ -2,7 +2,7 @@
 
 use super::shapes::{ball, obj};
 use glam::DVec3;
-use pillarforest::compile::{Build, Goal, run};
+use pillarforest::compile::{Build, build, check};
 use pillarforest::diag::Diagnostic;
 use pillarforest::intake::{load_model, load_original};
 use pillarforest::mesh::{Original, Solid, TriMesh, self_intersections};
@@ -36,7 +36,7 @@ fn text(relief: &str, energy: &str, regions: &str) -> String {
 fn build_of(mesh: &TriMesh, text: &str) -> Build {
     let read = |_: &str| Ok::<_, Diagnostic>(obj(mesh));
     let scene = scene::resolve(text, &read).unwrap_or_else(|p| panic!("{p:?}\n{text}"));
-    run(&scene.value, Goal::All, &|_, _| {}, &|| false).unwrap_or_else(|p| panic!("{p:?}\n{text}"))
+    build(&scene.value, &|_, _| {}, &|| false).unwrap_or_else(|p| panic!("{p:?}\n{text}"))
 }
 
 fn bytes<'a>(build: &'a Build, path: &str) -> &'a [u8] {
@@ -218,7 +218,7 @@ fn what_cannot_stay_whole_is_refused() {
         let end = scene[start..].find("))]").expect("its end") + start + 2;
         let scene = format!("{}{supports}{}", &scene[..start], &scene[end..]);
         let scene = scene::resolve(&scene, &read(&model())).unwrap_or_else(|p| panic!("{p:?}"));
-        let problems = run(&scene.value, Goal::Check, &|_, _| {}, &|| false).expect_err(supports);
+        let problems = check(&scene.value, &|_, _| {}, &|| false).expect_err(supports);
         assert!(
             problems.iter().any(|p| p.message.contains(wanted)),
             "{problems:?}"

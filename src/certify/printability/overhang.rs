@@ -1,12 +1,13 @@
 //! How far faces hang out over nothing.
 //!
 //! A face hangs if it looks down and is flatter than [`STEEP_DEG`] degrees from the horizontal; the bottom of the print, which lies on
-//! the bed, does not. Hanging faces that share an edge are one region. A region is held where it borders on a face that goes on
+//! the bed, does not. Hanging faces that share an edge are one ledge. A ledge is held where it borders on a face that goes on
 //! *downwards* from their edge (a wall below, or a steeper slope); its reach is the largest horizontal distance of one of its
-//! points from the nearest such edge. A bridge is held at both ends and reaches half its span. A region that is held nowhere starts
+//! points from the nearest such edge. A bridge is held at both ends and reaches half its span. A ledge that is held nowhere starts
 //! in mid-air: its reach is its own extent.
 
-use super::{PrintCheck, PrintLimits, tidy};
+use super::check::{PrintCheck, PrintFinding, PrintLimits};
+use crate::certify::point::without_minus_zero;
 use crate::geom::to_segment;
 use crate::mesh::{DisjointSets, TriMesh, face_neighbours};
 use glam::{DVec2, DVec3};
@@ -26,44 +27,36 @@ const HELD_MM: f64 = 10.0;
 const GRID_MM: f64 = 1.0;
 const FINEST: u32 = 100;
 
-/// The region that reaches farthest.
+/// The ledge that reaches farthest.
 pub fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
-    let regions = regions(mesh);
-    let reaches: Vec<(f64, DVec3)> = regions.par_iter().map(Region::reach).collect();
+    let ledges = ledges(mesh);
+    let reaches: Vec<(f64, DVec3)> = ledges.par_iter().map(Ledge::reach).collect();
     let free = FREE_NOZZLES * limits.nozzle;
     let over = reaches.iter().filter(|r| r.0 > free).count();
     let (reach, place) = reaches
         .into_iter()
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .unwrap_or_default();
-    let note = if over == 0 {
-        "nothing needs supports".to_owned()
-    } else {
-        format!(
-            "{over} regions flatter than {STEEP_DEG} degrees reach farther than wanted: print with the slicer's supports"
-        )
-    };
     PrintCheck {
-        check: "overhang",
-        place: tidy(place),
+        finding: PrintFinding::Overhang { ledges: over },
+        place: without_minus_zero(place),
         value_mm: reach,
         wanted_mm: free,
         limit_mm: HELD_MM,
         ok: reach <= HELD_MM,
-        note,
     }
 }
 
 /// Hanging faces that hang together.
 #[derive(Default)]
-struct Region {
+struct Ledge {
     /// Corners, and points between them.
     points: Vec<DVec3>,
     /// Edges that something below holds.
     held: Vec<[DVec2; 2]>,
 }
 
-impl Region {
+impl Ledge {
     /// Millimetres, and where.
     fn reach(&self) -> (f64, DVec3) {
         let (lo, hi) = self
@@ -89,7 +82,7 @@ impl Region {
     }
 }
 
-fn regions(mesh: &TriMesh) -> Vec<Region> {
+fn ledges(mesh: &TriMesh) -> Vec<Ledge> {
     let floor = mesh.bounds().map_or(0.0, |(lo, _)| lo.z) + BED_MM;
     let flat = -STEEP_DEG.to_radians().cos();
     let hangs: Vec<bool> = (0..mesh.faces.len())
@@ -108,25 +101,25 @@ fn regions(mesh: &TriMesh) -> Vec<Region> {
     }
     let (count, number) = sets.numbers();
     let mut slot = vec![usize::MAX; count];
-    let mut regions: Vec<Region> = Vec::new();
+    let mut ledges: Vec<Ledge> = Vec::new();
     for f in hanging() {
         let slot = &mut slot[number[f] as usize];
         if *slot == usize::MAX {
-            *slot = regions.len();
-            regions.push(Region::default());
+            *slot = ledges.len();
+            ledges.push(Ledge::default());
         }
-        let region = &mut regions[*slot];
+        let ledge = &mut ledges[*slot];
         let corners = mesh.corners(f);
-        region.points.extend(points(corners));
+        ledge.points.extend(points(corners));
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             let other = neighbours[f][k].filter(|n| !hangs[*n as usize]);
             if other.is_some_and(|n| goes_down(mesh, n as usize, (a + b) / 2.0)) {
-                region.held.push([a.truncate(), b.truncate()]);
+                ledge.held.push([a.truncate(), b.truncate()]);
             }
         }
     }
-    regions
+    ledges
 }
 
 /// A grid over a face, its corners included: the middle of a bridge has no corner.

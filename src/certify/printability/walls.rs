@@ -8,8 +8,9 @@
 //! behind it, and printing blunts it. So a thin place counts as a *wall* only if no thick place of the same side is within
 //! [`LIP_MM`] of it; in the same way a narrow place is a *gap* only away from wide ones, not at the bottom of a notch.
 
-use super::{PrintCheck, PrintLimits, tidy};
+use super::check::{LostWalls, PrintCheck, PrintFinding, PrintLimits};
 use crate::bvh::Bvh;
+use crate::certify::point::without_minus_zero;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::support::{Support, SupportKind};
 use glam::{DVec2, DVec3};
@@ -83,24 +84,18 @@ fn wall(samples: &[Sample], each: f64, limits: &PrintLimits) -> PrintCheck {
         .or_else(|| pieces.iter().max_by_key(|p| p.len())?.first().copied())
         .map_or(DVec3::ZERO, |i| samples[i].at);
     let value = worst.map_or(wanted, thickness);
-    let note = if films.is_empty() {
-        format!("no wall is thinner than {wanted:.2} mm")
-    } else {
-        format!(
-            "{:.0} mm2 of walls below {vanishing:.2} mm, in {} pieces of at most {:.1} mm2, will not be printed",
-            one_side(films.len()),
-            pieces.len(),
-            one_side(largest)
-        )
-    };
+    let lost = (!films.is_empty()).then(|| LostWalls {
+        area_mm2: one_side(films.len()),
+        pieces: pieces.len(),
+        largest_mm2: one_side(largest),
+    });
     PrintCheck {
-        check: "wall",
-        place: tidy(place),
+        finding: PrintFinding::Wall(lost),
+        place: without_minus_zero(place),
         value_mm: value,
         wanted_mm: wanted,
         limit_mm: vanishing,
         ok: value > vanishing,
-        note,
     }
 }
 
@@ -122,17 +117,15 @@ fn gap(samples: &[Sample], each: f64, limits: &PrintLimits) -> PrintCheck {
     let place = worst.map_or(DVec3::ZERO, |i| samples[i].at);
     let value = worst.map_or(wanted, width);
     PrintCheck {
-        check: "gap",
-        place: tidy(place),
+        finding: PrintFinding::Gap {
+            joined_mm2: one_side(&joined),
+            closed_mm2: one_side(&slots),
+        },
+        place: without_minus_zero(place),
         value_mm: value,
         wanted_mm: wanted,
         limit_mm: fused,
         ok: value >= fused,
-        note: format!(
-            "below {fused:.2} mm: {:.1} mm2 between pillars, which will touch there, and {:.1} mm2 of slots within pillars, which will close",
-            one_side(&joined),
-            one_side(&slots)
-        ),
     }
 }
 
@@ -216,14 +209,14 @@ fn owner(supports: &[Support], at: DVec3) -> Option<usize> {
     near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|n| n.0)
 }
 
-type Cell = (i64, i64, i64);
+type Bin = (i64, i64, i64);
 
-fn cell(at: DVec3, side: f64) -> Cell {
+fn cell(at: DVec3, side: f64) -> Bin {
     let c = (at / side).floor();
     (c.x as i64, c.y as i64, c.z as i64)
 }
 
-fn around((x, y, z): Cell) -> impl Iterator<Item = Cell> {
+fn around((x, y, z): Bin) -> impl Iterator<Item = Bin> {
     (0..27).map(move |k| (x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1))
 }
 
@@ -236,7 +229,7 @@ fn away_from_wider(
     let (thin, thick): (Vec<usize>, Vec<usize>) =
         (0..samples.len()).partition(|i| value(*i) < limit);
     // Only cells that a thin sample asks about are filled.
-    let mut near: BTreeMap<Cell, Vec<usize>> = BTreeMap::new();
+    let mut near: BTreeMap<Bin, Vec<usize>> = BTreeMap::new();
     for i in &thin {
         for c in around(cell(samples[*i].at, LIP_MM)) {
             near.entry(c).or_default();
@@ -260,7 +253,7 @@ fn away_from_wider(
 
 /// Groups of samples that are linked by steps of `link` or less, the largest first.
 fn patches(samples: &[Sample], list: &[usize], link: f64) -> Vec<Vec<usize>> {
-    let mut cells: BTreeMap<Cell, Vec<u32>> = BTreeMap::new();
+    let mut cells: BTreeMap<Bin, Vec<u32>> = BTreeMap::new();
     for (k, i) in list.iter().enumerate() {
         cells
             .entry(cell(samples[*i].at, link))

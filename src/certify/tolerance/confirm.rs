@@ -5,8 +5,10 @@
 //! angle over which the eye in its place sees what the other does not. Both are the same question with the eyes changing places, asked
 //! with a fan of rays across the cut.
 
-use super::Cut;
+use super::found::{Confirmed, Tolerance, arcmin};
+use super::rift::Rift;
 use crate::bvh::Bvh;
+use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
 use glam::DVec3;
 
@@ -20,6 +22,25 @@ const GRAZING: f64 = 0.01;
 /// What hides a point must stand this far before it, millimetres: more than rounding, less than the lowest step.
 const BEFORE_MM: f64 = 0.02;
 
+/// Measures the worst cuts by rays at the finished forest, whose `bvh` is given, and writes down what they show.
+pub fn confirm(tolerance: &mut Tolerance, plane: &ImagePlane, forest: &TriMesh, bvh: &Bvh) {
+    for worst in &mut tolerance.worst_cuts {
+        let e = plane.focal * worst.moved_mm * worst.movement.axis(plane);
+        let [one, other] = [e, -e].map(|e| opened(&worst.cut, plane.eye, e, forest, bvh));
+        let confirmed = |e: DVec3, measured: f64| Confirmed {
+            predicted_arcmin: arcmin(plane.focal * worst.cut.opening(e)),
+            measured_arcmin: arcmin(plane.focal * measured),
+        };
+        let (apart, gap, overlap) = if one.gap >= other.gap {
+            (e, one.gap, other.overlap)
+        } else {
+            (-e, other.gap, one.overlap)
+        };
+        worst.gap = Some(confirmed(apart, gap));
+        worst.overlap = Some(confirmed(-apart, overlap));
+    }
+}
+
 /// What opened at a cut, radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Opened {
@@ -28,7 +49,7 @@ pub struct Opened {
 }
 
 /// What opens at a cut, as seen by the eye that moved, if it moves from `home` by `e`.
-pub fn opened(cut: &Cut, home: DVec3, e: DVec3, forest: &TriMesh, bvh: &Bvh) -> Opened {
+pub fn opened(cut: &Rift, home: DVec3, e: DVec3, forest: &TriMesh, bvh: &Bvh) -> Opened {
     let expected = cut.opening(e);
     if expected.is_nan() || expected <= 0.0 {
         return Opened::default();
@@ -36,22 +57,23 @@ pub fn opened(cut: &Cut, home: DVec3, e: DVec3, forest: &TriMesh, bvh: &Bvh) -> 
     let moved = home + e;
     let edges = cut.distances.map(|a| home + a * cut.direction);
     let seen_from = |from: DVec3| edges.map(|p| (p - from).normalize());
-    let sight = Sight { forest, bvh };
+    let witness = Witness { forest, bvh };
     let [a, b] = seen_from(moved);
-    let hidden = sight.unseen([home, moved], cut.direction, cut.normal, expected);
+    let hidden = witness.unseen([home, moved], cut.direction, cut.normal, expected);
     Opened {
-        gap: sight.unseen([moved, home], a + b, cut.normal, expected),
+        gap: witness.unseen([moved, home], a + b, cut.normal, expected),
         // As wide as the eye that moved would see it.
         overlap: hidden * cut.distances[1] / edges[1].distance(moved),
     }
 }
 
-struct Sight<'a> {
+/// The finished forest, ready for rays.
+struct Witness<'a> {
     forest: &'a TriMesh,
     bvh: &'a Bvh,
 }
 
-impl Sight<'_> {
+impl Witness<'_> {
     /// Over which angle at a cut the first eye sees what the other one does not: the longest run of such rays that begins or ends
     /// within the opening expected around `middle`, in the plane of `middle` and `across`.
     fn unseen(&self, eyes: [DVec3; 2], middle: DVec3, across: DVec3, expected: f64) -> f64 {

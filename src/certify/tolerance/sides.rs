@@ -1,8 +1,9 @@
 //! Sides of a view map at which an eye that moves sees its pieces part, and the worst of them that is more than a speck.
 
-use super::{Cut, parting};
+use super::rift::{Rift, parting};
 use crate::geom::{ImagePlane, parallax};
 use crate::groups::anchor;
+use crate::index::{CellId, PointId, SupportId};
 use crate::mesh::DisjointSets;
 use crate::relief::Relief;
 use crate::viewmap::{Target, ViewMap};
@@ -18,11 +19,11 @@ pub fn least(plane: &ImagePlane) -> f64 {
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
-pub struct Side {
+pub struct CutSide {
     /// Image points of its ends.
-    points: [u32; 2],
+    points: [PointId; 2],
     /// Of the cells on both sides.
-    pub supports: [u32; 2],
+    pub supports: [SupportId; 2],
     /// Directions of the ends, one long along the forward axis, and unit ones.
     rays: [DVec3; 2],
     ends: [DVec3; 2],
@@ -33,7 +34,7 @@ pub struct Side {
     model: [[f64; 2]; 2],
 }
 
-impl Side {
+impl CutSide {
     /// By how much more the relief parts than the model at the worse end, radians for each millimetre that an eye `back`
     /// millimetres farther away moves square to the side.
     pub fn excess(&self, back: f64) -> f64 {
@@ -63,13 +64,13 @@ impl Side {
     }
 
     /// In the middle of the side.
-    pub fn cut(&self) -> Cut {
+    pub fn cut(&self) -> Rift {
         let middle = (self.rays[0] + self.rays[1]) / 2.0;
         // Depths along the forward axis are harmonic along the side.
         let nearness = |k: usize, cell: usize| self.rays[k].length() / self.relief[k][cell];
         let [a, b] =
             [0, 1].map(|cell| 2.0 * middle.length() / (nearness(0, cell) + nearness(1, cell)));
-        Cut {
+        Rift {
             direction: middle.normalize(),
             normal: self.normal,
             distances: [a.min(b), a.max(b)],
@@ -83,13 +84,13 @@ impl Side {
 }
 
 /// All sides between two cells with reliefs that open at all, in the order of the cells.
-pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<Side> {
+pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<CutSide> {
     let mut sides = Vec::new();
     let least = least(&map.plane);
-    for c in 0..map.cells.len() {
+    for c in CellId::all(map.cells.len()) {
         for k in 0..3 {
-            let next = map.neighbours[c][k].filter(|n| *n as usize > c);
-            let side = next.and_then(|n| side(map, target, relief, [c, n as usize], k));
+            let next = map.neighbours[c][k].filter(|n| *n > c);
+            let side = next.and_then(|n| side(map, target, relief, [c, n], k));
             sides.extend(side.filter(|s| s.excess(0.0) > least));
         }
     }
@@ -100,27 +101,27 @@ fn side(
     map: &ViewMap,
     target: &Target,
     relief: &Relief,
-    cells: [usize; 2],
+    cells: [CellId; 2],
     k: usize,
-) -> Option<Side> {
+) -> Option<CutSide> {
     let corners = map.cells[cells[0]].corners;
     let points = [corners[k], corners[(k + 1) % 3]];
-    let rays = points.map(|p| map.plane.direction(map.points[p as usize]));
+    let rays = points.map(|p| map.plane.direction(map.points[p]));
     let ends = rays.map(DVec3::normalize);
     let (mut of_relief, mut of_model) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
-    let mut supports = [0; 2];
+    let mut supports = [SupportId(0); 2];
     for (i, c) in cells.into_iter().enumerate() {
         let cell = &map.cells[c];
         let depth = relief.depth[c]?;
         supports[i] = cell.support?;
         for (end, point) in points.iter().enumerate() {
             let corner = cell.corners.iter().position(|p| p == point)?;
-            let (_, model) = anchor(target, cell.face? as usize, map.points[*point as usize]);
+            let (_, model) = anchor(target, cell.face?, map.points[*point]);
             of_relief[end][i] = depth[corner] * rays[end].length();
             of_model[end][i] = model * rays[end].length();
         }
     }
-    Some(Side {
+    Some(CutSide {
         points,
         supports,
         rays,
@@ -143,9 +144,9 @@ pub struct Critical {
 /// The largest rate at which sides of that rate or more hang together over `extent` radians. Sides are joined at shared points
 /// (indices below `points`), steepest first, until a cut is long enough.
 pub fn critical(
-    sides: &[Side],
+    sides: &[CutSide],
     points: usize,
-    rate: impl Fn(&Side) -> f64,
+    rate: impl Fn(&CutSide) -> f64,
     extent: f64,
 ) -> Option<Critical> {
     let mut order: Vec<(f64, usize)> = sides.iter().map(rate).zip(0..).collect();
@@ -155,7 +156,7 @@ pub fn critical(
     let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); points];
     for (n, (rate, i)) in order.iter().enumerate() {
         let side = &sides[*i];
-        let roots = side.points.map(|p| sets.root(p));
+        let roots = side.points.map(|p| sets.root(p.0));
         let [a, b] = side.ends;
         let grown = roots.map(|r| boxes[r as usize]);
         let lo = grown[0].0.min(grown[1].0).min(a.min(b));

@@ -1,13 +1,14 @@
 //! One view's certificate in words: what was measured, whether it holds, and what it means to somebody who looks or prints.
 
-use super::text::{count, mark, measure, measure_or, percent, place, table_if_any, tiny};
+use super::text::{DASH, count, mark, measure, measure_or, percent, place, table_if_any, tiny};
 use crate::certify::conflicts::Trouble;
 use crate::certify::coverage::{Cause, Gap};
-use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Turn, Way, WorstCut};
+use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Rotation, Way, WorstCut};
 use crate::formats::markup::escaped;
 use crate::geom::READING_MM;
-use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
+use crate::report::certificate::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
+use crate::whole::Crossings;
 use std::fmt::Write as _;
 
 const ARCMIN2: &str = "arcmin²";
@@ -15,7 +16,7 @@ const ARCMIN2: &str = "arcmin²";
 const ALWAYS: &str = "as far as it likes";
 
 /// What was asked, what was found, whether it holds (if that is a question), and what it means.
-struct Row(&'static str, String, Option<bool>, String);
+struct Answer(&'static str, String, Option<bool>, String);
 
 /// The certificate's tables; `name` is the view's.
 pub fn certificate(name: &str, found: &CertificateReport) -> String {
@@ -34,7 +35,7 @@ pub fn certificate(name: &str, found: &CertificateReport) -> String {
             html,
             "<tbody>\n<tr><th colspan=\"4\" scope=\"rowgroup\">{head}</th></tr>\n"
         );
-        for Row(what, found, holds, words) in rows {
+        for Answer(what, found, holds, words) in rows {
             let holds = holds.map_or("", mark);
             _ = writeln!(
                 html,
@@ -47,63 +48,18 @@ pub fn certificate(name: &str, found: &CertificateReport) -> String {
     html + &lists(found)
 }
 
-fn surface(c: &CertificateReport) -> Vec<Row> {
-    let mut rows = vec![
-        Row(
-            "Outside its layer",
-            measure(c.bound_violation_mm, 3, "mm"),
-            Some(c.bound_violation_mm <= NOTHING_MM),
-            "How far the relief leaves the layer its pillars offer, anywhere.".into(),
-        ),
-        Row(
-            "Pushed back into it",
-            measure(c.clamp_mm, 3, "mm"),
-            Some(c.clamp_mm <= NOTHING_MM),
-            "How far points had to be moved along their rays to stay within the layer.".into(),
-        ),
-        Row(
-            "Before its support",
-            measure(c.relief_front_mm, 3, "mm"),
-            None,
-            "How far the relief comes before the surface or plane that its layer is measured from."
-                .into(),
-        ),
-        Row(
-            "Into its support",
-            measure(c.relief_back_mm, 3, "mm"),
-            None,
-            "How far it goes behind that.".into(),
-        ),
-        Row(
-            "Order turned round",
-            format!("{} places", count(c.order_inversions)),
-            Some(c.order_inversions == 0),
-            "Places where a farther part of the model comes before a nearer one.".into(),
-        ),
-    ];
-    if let Some(found) = c.crossings {
-        let whole = "Before it is cut, with what nobody sees:";
-        rows.extend([
-            Row(
-                "Order turned round in all of the surface",
-                format!("{} places", count(found.order_inversions)),
-                None,
-                format!("{whole} places where a farther sheet comes before a nearer one."),
-            ),
-            Row(
-                "Faces through each other",
-                format!("{} pairs", count(found.self_intersections)),
-                None,
-                format!(
-                    "{whole} pairs of faces that cross. In the model: {}.",
-                    count(found.in_model)
-                ),
-            ),
-        ]);
-    }
+fn surface(c: &CertificateReport) -> Vec<Answer> {
+    let mut rows = within_layer(c);
+    rows.push(Answer(
+        "Order turned round",
+        format!("{} places", count(c.order_inversions)),
+        Some(c.order_inversions == 0),
+        "Places where a farther part of the model comes before a nearer one.".into(),
+    ));
+    rows.extend(c.crossings.iter().flat_map(before_cutting));
     rows.extend(c.proof.iter().flat_map(proof));
-    rows.extend(c.not_an_optimum.map(|what| {
-        Row(
+    rows.extend(c.not_an_optimum.iter().map(|what| {
+        Answer(
             "Best possible depths",
             "not claimed".into(),
             None,
@@ -113,22 +69,76 @@ fn surface(c: &CertificateReport) -> Vec<Row> {
     rows
 }
 
-fn proof(p: &Proof) -> [Row; 3] {
+fn within_layer(c: &CertificateReport) -> Vec<Answer> {
+    let holds = |mm: f64| Some(mm <= NOTHING_MM);
+    [
+        (
+            "Outside its layer",
+            c.bound_violation_mm,
+            holds(c.bound_violation_mm),
+            "How far the relief leaves the layer its supports offer, anywhere.",
+        ),
+        (
+            "Pushed back into it",
+            c.clamp_mm,
+            holds(c.clamp_mm),
+            "How far points had to be moved along their rays to stay within the layer.",
+        ),
+        (
+            "Before its support",
+            c.relief_front_mm,
+            None,
+            "How far the relief comes before the surface or plane that its layer is measured from.",
+        ),
+        (
+            "Into its support",
+            c.relief_back_mm,
+            None,
+            "How far it goes behind that.",
+        ),
+    ]
+    .map(|(what, mm, holds, words)| Answer(what, measure(mm, 3, "mm"), holds, words.into()))
+    .into()
+}
+
+/// What crosses in the surface as it was optimised.
+fn before_cutting(found: &Crossings) -> [Answer; 2] {
+    let before = "Before it is cut, with what nobody sees:";
+    [
+        Answer(
+            "Order turned round in all of the surface",
+            format!("{} places", count(found.order_inversions)),
+            None,
+            format!("{before} places where a farther sheet comes before a nearer one."),
+        ),
+        Answer(
+            "Faces through each other",
+            format!("{} pairs", count(found.self_intersections)),
+            None,
+            format!(
+                "{before} pairs of faces that cross. In the model: {}.",
+                count(found.in_model)
+            ),
+        ),
+    ]
+}
+
+fn proof(p: &Proof) -> [Answer; 3] {
     let proof = "Proof that no other depths keep the normals better; zero but for rounding.";
     [
-        Row(
+        Answer(
             "Duality gap",
             tiny(p.duality_gap_rel),
             Some(p.duality_gap_rel <= OPTIMAL),
             proof.into(),
         ),
-        Row(
+        Answer(
             "Bounds and order kept to",
             tiny(p.primal_residual),
             Some(p.primal_residual <= OPTIMAL),
             "Largest breach of a condition in the solver's own units (primal residual).".into(),
         ),
-        Row(
+        Answer(
             "Forces in balance to",
             tiny(p.dual_residual),
             Some(p.dual_residual <= OPTIMAL),
@@ -137,21 +147,21 @@ fn proof(p: &Proof) -> [Row; 3] {
     ]
 }
 
-fn reaching(c: &CertificateReport) -> Vec<Row> {
+fn reaching(c: &CertificateReport) -> Vec<Answer> {
     let mut rows = vec![
-        Row(
+        Answer(
             "Carried",
             percent(c.coverage),
             Some(c.gaps.is_empty()),
             format!(
-                "Share of what the eye should see that a pillar carries. Gaps: {} worth telling, and {} at outlines with {} \
+                "Share of what the eye should see that a support carries. Gaps: {} worth telling, and {} at outlines with {} \
                  together.",
                 count(c.gaps.len()),
                 count(c.small_gaps),
                 measure(c.small_gaps_arcmin2, 1, ARCMIN2)
             ),
         ),
-        Row(
+        Answer(
             "Seen in the end",
             percent(c.reaching),
             Some(c.conflicts.is_empty()),
@@ -162,7 +172,7 @@ fn reaching(c: &CertificateReport) -> Vec<Row> {
                 measure(c.filled_arcmin2, 1, ARCMIN2)
             ),
         ),
-        Row(
+        Answer(
             "Still contested",
             measure(c.contested_left_arcmin2, 1, ARCMIN2),
             Some(c.contested_left_arcmin2 == 0.0),
@@ -173,7 +183,7 @@ fn reaching(c: &CertificateReport) -> Vec<Row> {
         ),
     ];
     for model in &c.models {
-        rows.push(Row(
+        rows.push(Answer(
             "Model",
             escaped(&model.name),
             None,
@@ -189,7 +199,7 @@ fn reaching(c: &CertificateReport) -> Vec<Row> {
     rows
 }
 
-fn room(c: &CertificateReport) -> Vec<Row> {
+fn room(c: &CertificateReport) -> Vec<Answer> {
     if let (Some(unseen), Some(one)) =
         (&c.tolerance.eye_tolerance_deg, &c.tolerance.one_picture_deg)
     {
@@ -198,7 +208,7 @@ fn room(c: &CertificateReport) -> Vec<Row> {
     let (unseen, one) = (&c.tolerance.eye_tolerance_mm, &c.tolerance.one_picture_mm);
     let minutes = |angle: f64| format!("{:.0} arc-minutes", angle.to_degrees() * 60.0);
     let way = |what, unseen, one, how: &str| {
-        Row(
+        Answer(
             what,
             both(unseen, one, 1, "mm"),
             None,
@@ -228,7 +238,7 @@ fn room(c: &CertificateReport) -> Vec<Row> {
             one.fore,
             "How far it may come nearer or step back",
         ),
-        Row(
+        Answer(
             "Two eyes from",
             measure_or(c.tolerance.stereo_distance_mm, 0, "mm", "anywhere"),
             None,
@@ -247,9 +257,9 @@ fn both(unseen: Option<f64>, one: Option<f64>, digits: usize, unit: &str) -> Str
 }
 
 /// The same for an eye at infinity.
-fn turns(c: &CertificateReport, unseen: &Turn, one: &Turn) -> Vec<Row> {
+fn turns(c: &CertificateReport, unseen: &Rotation, one: &Rotation) -> Vec<Answer> {
     let way = |what, unseen, one| {
-        Row(
+        Answer(
             what,
             both(unseen, one, 2, "°"),
             None,
@@ -265,7 +275,7 @@ fn turns(c: &CertificateReport, unseen: &Turn, one: &Turn) -> Vec<Row> {
     vec![
         way("Sideways", unseen.side, one.side),
         way("Up and down", unseen.up, one.up),
-        Row(
+        Answer(
             "One picture from",
             measure_or(c.tolerance.one_picture_from_mm, 0, "mm", "anywhere"),
             None,
@@ -276,7 +286,7 @@ fn turns(c: &CertificateReport, unseen: &Turn, one: &Turn) -> Vec<Row> {
 
 /// What there is to list.
 fn lists(c: &CertificateReport) -> String {
-    let name = |n: &Option<String>| n.as_deref().map_or_else(|| "\u{2013}".into(), escaped);
+    let name = |n: &Option<String>| n.as_deref().map_or_else(|| DASH.into(), escaped);
     let gaps: Vec<_> = c.gaps.iter().map(gap).collect();
     let contests = c.contests.iter().map(|k| {
         [
@@ -333,13 +343,13 @@ fn lists(c: &CertificateReport) -> String {
 
 fn gap(g: &Gap) -> [String; 7] {
     let cause = match g.cause {
-        Cause::NoPillar => "no pillar there",
+        Cause::NoPillar => "no support there",
         Cause::PillarTooShort => "the pillar is too short",
         Cause::OtherView => "another view needs the place",
         Cause::Hidden => "something else stands there",
         Cause::Infeasible => "no relief could be made there",
     };
-    let name = |n: &Option<String>| n.as_deref().map_or_else(|| "\u{2013}".into(), escaped);
+    let name = |n: &Option<String>| n.as_deref().map_or_else(|| DASH.into(), escaped);
     [
         cause.to_owned(),
         measure(g.arcmin2, 1, ARCMIN2),
@@ -351,7 +361,7 @@ fn gap(g: &Gap) -> [String; 7] {
         ),
         name(&g.support),
         name(&g.view),
-        measure_or(g.wanted_mm, 2, "mm", "\u{2013}"),
+        measure_or(g.wanted_mm, 2, "mm", DASH),
     ]
 }
 
@@ -369,7 +379,7 @@ fn worst_cut(cut: &WorstCut) -> [String; 7] {
     };
     let angle = |c: &Option<Confirmed>| {
         c.map_or_else(
-            || "\u{2013}".into(),
+            || DASH.into(),
             |c| {
                 let [worked_out, measured] =
                     [c.predicted_arcmin, c.measured_arcmin].map(|x| measure(x, 2, "′"));

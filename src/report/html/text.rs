@@ -3,6 +3,8 @@
 use crate::formats::markup::escaped;
 use std::fmt::Write as _;
 
+/// Where there is no figure.
+pub const DASH: &str = "\u{2013}";
 /// Between a figure and its unit: narrow, and no line breaks there.
 const THIN: char = '\u{202F}';
 
@@ -110,6 +112,26 @@ pub fn table_if_any<const N: usize>(
     } else {
         table(caption, heads, rows)
     }
+}
+
+/// Figures under words, side by side. Both are HTML.
+pub fn facts(facts: &[(&str, String)]) -> String {
+    let mut html = String::from("<dl class=\"facts\">\n");
+    for (what, found) in facts {
+        _ = writeln!(html, "<div><dt>{what}</dt><dd>{found}</dd></div>");
+    }
+    html.push_str("</dl>\n");
+    html
+}
+
+/// Texts as a list.
+pub fn list(texts: &[String]) -> String {
+    let mut html = String::from("<ul>\n");
+    for text in texts {
+        _ = writeln!(html, "<li>{}</li>", escaped(text));
+    }
+    html.push_str("</ul>\n");
+    html
 }
 
 /// A sign and a word: the colour alone says nothing.

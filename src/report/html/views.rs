@@ -1,12 +1,14 @@
 //! The page's section on one view: target against forest, errors, lights, figures.
 
-use super::ViewExhibit;
 use super::certificate::certificate;
-use super::text::{count, measure, measure_or, percent, picture, place, table, table_if_any, tiny};
+use super::exhibits::ViewExhibit;
+use super::text::{
+    self, DASH, count, measure, measure_or, percent, picture, place, table, table_if_any, tiny,
+};
 use crate::formats::markup::escaped;
 use crate::mimic::{Ending, Iterated};
 use crate::render::{HEAT, SCALE_END_DEG, ViewPictures};
-use crate::report::{ProgramReport, ViewReport};
+use crate::report::view::{ProgramReport, ViewReport};
 use crate::steps::StepSummary;
 use std::fmt::Write as _;
 
@@ -105,9 +107,9 @@ fn facts(v: &ViewReport) -> String {
     );
     add("rays that meet the forest", v.hit_share.map(percent));
     add("of so many rays", v.rays.map(count));
-    add("pieces on pillars", v.groups.map(count));
+    add("pieces on supports", v.groups.map(count));
     add("triangles of the view map", v.cells.map(count));
-    super::facts(&facts)
+    text::facts(&facts)
 }
 
 fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
@@ -124,7 +126,7 @@ fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
     let rows: Vec<_> = found
         .iter()
         .map(|l| {
-            let dash = "\u{2013}".to_owned();
+            let dash = DASH.to_owned();
             [
                 match l.elevation_deg {
                     Some(e) => format!("sun at {}", measure(e, 0, "°")),
@@ -135,7 +137,7 @@ fn lights(v: &ViewReport, shown: Option<&ViewExhibit>) -> String {
                 measure(l.rmse_unshadowed, 1, ""),
                 measure(l.rmse_fitted, 1, ""),
                 measure(l.gain, 2, ""),
-                measure_or(l.correlation, 2, "", "\u{2013}"),
+                measure_or(l.correlation, 2, "", DASH),
                 l.false_shadow_share.map_or(dash.clone(), percent),
                 l.lost_shadow_share.map_or(dash, percent),
             ]
@@ -208,7 +210,7 @@ fn program(p: &ProgramReport) -> Vec<(&'static str, String)> {
         ("Conditions", count(p.rows)),
         ("Parts solved one by one", count(p.blocks)),
         ("Conditions that hold something back", count(p.active_rows)),
-        ("Solved by", escaped(p.method)),
+        ("Solved by", escaped(&p.method)),
         ("Iterations", count(p.iterations as usize)),
         ("Energy", tiny(p.objective)),
         (
@@ -217,7 +219,7 @@ fn program(p: &ProgramReport) -> Vec<(&'static str, String)> {
         ),
         ("Rounds of adding conditions", count(p.rounds as usize)),
         ("Conditions added", count(p.rows_added)),
-        ("What the energy leaves open", escaped(p.gauge)),
+        ("What the energy leaves open", escaped(&p.gauge)),
     ]
 }
 

@@ -1,50 +1,26 @@
-//! `report.html`: the report for people, as one page that needs nothing but itself.
-//!
-//! Takes a [`Report`] and what there is to show with it, gives the page's text. Pictures are part of it, style and script too;
-//! the page forbids itself every other source, so that it looks the same from a disk, in a mail and in ten years. Without
-//! scripts everything can still be seen, and it prints. The same report gives the same bytes. Figures carry their exact value
-//! as `<data value>`; what people read is rounded.
+//! The page from its head to its foot, with all that is not about one view alone.
 
-mod certificate;
-mod text;
-mod views;
-
-use super::Report;
+use super::exhibits::Exhibits;
+use super::text::{
+    DASH, count, facts, list, mark, measure, measure_or, percent, place, table, table_if_any,
+};
+use super::views::view;
 use crate::certify::camouflage::Camouflage;
 use crate::certify::tolerance::Tolerance;
 use crate::formats::markup::escaped;
-use crate::render::ViewPictures;
-use serde_json::Value;
+use crate::ladder::Ladder;
+use crate::report::document::Report;
+use crate::report::print::PrintReport;
+use crate::report::solid::SolidCheck;
+use crate::report::view::ViewReport;
+use crate::words;
 use std::fmt::Write as _;
-use text::{count, mark, measure, measure_or, percent, table, table_if_any};
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// What browsers may load for the page: what stands in it.
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
-const DASH: &str = "\u{2013}";
-
-/// What is shown besides figures. SVG as whole documents without a prolog, trusted as they are.
-#[derive(Clone, Debug, Default)]
-pub struct Exhibits<'a> {
-    pub plan: Option<&'a str>,
-    pub camouflage: Option<&'a str>,
-    /// In the order of the report's views; may be shorter.
-    pub views: Vec<ViewExhibit<'a>>,
-    /// Paths of the files made, and their sizes in bytes.
-    pub files: Vec<(&'a str, usize)>,
-}
-
-/// One view's pictures.
-#[derive(Clone, Copy, Debug)]
-pub struct ViewExhibit<'a> {
-    /// In which the plan and the curves draw it.
-    pub colour: [u8; 3],
-    pub pictures: Option<&'a ViewPictures>,
-    /// PNG: the sheet in real light.
-    pub lights: Option<&'a [u8]>,
-}
 
 impl Report {
     /// The page, with a line break at its end.
@@ -67,11 +43,11 @@ impl Report {
                  \n{svg}</figure>\n</section>\n"
             );
         }
-        for (k, view) in self.views.iter().enumerate() {
-            html.push_str(&views::view(k + 1, view, shown.views.get(k)));
+        for (k, found) in self.views.iter().enumerate() {
+            html.push_str(&view(k + 1, found, shown.views.get(k)));
         }
         html.push_str(&camouflage(&self.camouflage, shown.camouflage));
-        html.push_str(&print_sheet(&self.values()["print"]));
+        html.push_str(&print_sheet(&self.print));
         html.push_str(&self.solid_facts());
         html.push_str(&files(&shown.files));
         _ = write!(
@@ -82,11 +58,6 @@ impl Report {
             escaped(&self.program.version)
         );
         html
-    }
-
-    /// As the JSON file has it.
-    fn values(&self) -> Value {
-        serde_json::to_value(self).unwrap_or_default()
     }
 
     /// Title, ways to the sections, verdict.
@@ -116,7 +87,7 @@ impl Report {
 
     /// One line for each view: what most people want to know.
     fn overview(&self) -> String {
-        let row = |(k, v): (usize, &super::ViewReport)| {
+        let row = |(k, v): (usize, &ViewReport)| {
             let c = v.certificate.as_ref();
             let [unseen, one] = c.map_or([DASH; 2].map(str::to_owned), |c| room(&c.tolerance));
             let half = self.camouflage.get(k).and_then(|c| c.half_likeness_deg);
@@ -158,7 +129,7 @@ impl Report {
             return String::new();
         };
         let [x, y, z] = s.size_mm.map(|c| measure(c, 1, ""));
-        let facts = facts(&[
+        let measures = facts(&[
             ("size", format!("{x} × {y} × {z}\u{202F}mm")),
             ("volume", measure(s.volume_mm3 / 1000.0, 1, "cm³")),
             ("surface", measure(s.area_mm2 / 100.0, 1, "cm²")),
@@ -166,34 +137,42 @@ impl Report {
             ("vertices", count(s.vertices)),
             ("parts", count(s.parts)),
             ("closed hollows", count(s.cavities)),
+            ("relief corners filled in", count(s.repairs.filled_corners)),
+            ("reliefs tied by a brace", count(s.repairs.braces)),
+            (
+                "loose crumbs dropped",
+                measure(s.repairs.crumbs_mm3, 3, "mm³"),
+            ),
         ]);
-        let checks: Vec<_> = s
-            .checks
-            .iter()
-            .map(|c| [escaped(&c.name), escaped(&c.found), mark(c.passed).into()])
-            .collect();
-        let checks = table_if_any("Checks of the solid", ["what", "found", "holds"], &checks);
-        format!("<section id=\"solid\">\n<h2>Solid</h2>\n{facts}{checks}</section>\n")
+        let row = |c: &SolidCheck| {
+            [
+                escaped(&c.name),
+                count(c.found),
+                count(c.limit),
+                mark(c.passed).into(),
+            ]
+        };
+        let checks: Vec<_> = s.checks.iter().map(row).collect();
+        let heads = ["what", "found", "at most", "holds"];
+        let checks = table_if_any("Checks of the solid", heads, &checks);
+        let ladders = ladders(&self.ladders);
+        format!("<section id=\"solid\">\n<h2>Solid</h2>\n{measures}{checks}{ladders}</section>\n")
     }
 }
 
-/// Figures under words, side by side. Both are HTML.
-fn facts(facts: &[(&str, String)]) -> String {
-    let mut html = String::from("<dl class=\"facts\">\n");
-    for (what, found) in facts {
-        _ = writeln!(html, "<div><dt>{what}</dt><dd>{found}</dd></div>");
-    }
-    html.push_str("</dl>\n");
-    html
-}
-
-fn list(texts: &[String]) -> String {
-    let mut html = String::from("<ul>\n");
-    for text in texts {
-        _ = writeln!(html, "<li>{}</li>", escaped(text));
-    }
-    html.push_str("</ul>\n");
-    html
+/// What did not go as it was meant to at once.
+fn ladders(all: &[Ladder]) -> String {
+    let row = |l: &Ladder| {
+        Some([
+            escaped(&l.name),
+            l.place.as_deref().map_or_else(|| DASH.into(), escaped),
+            format!("{} of {}", count(l.rung + 1), count(l.rungs)),
+            escaped(&words::ladders::note(l)?),
+        ])
+    };
+    let rows: Vec<_> = all.iter().filter_map(row).collect();
+    let heads = ["what was tried in turn", "for", "way that held", "note"];
+    table_if_any("Ways that were not the first", heads, &rows)
 }
 
 fn camouflage(found: &[Camouflage], curves: Option<&str>) -> String {
@@ -231,34 +210,21 @@ fn camouflage(found: &[Camouflage], curves: Option<&str>) -> String {
     )
 }
 
-/// What a printer needs to know, from the report's `print`: a list of objects with `check`, `place`, `value_mm`, `wanted_mm`,
-/// `ok`, and perhaps `limit_mm` and `note`. Nothing of anything else.
-pub fn print_sheet(checks: &Value) -> String {
-    let text = |v: &Value| v.as_str().map_or_else(|| DASH.into(), escaped);
-    let length = |v: &Value| measure_or(v.as_f64(), 2, "mm", DASH);
-    let place = |v: &Value| {
-        let part = |k: usize| v.get(k).and_then(Value::as_f64);
-        match (part(0), part(1), part(2)) {
-            (Some(x), Some(y), Some(z)) => text::place([x, y, z]),
-            _ => text(v),
-        }
+/// What a printer needs to know; nothing if nothing was checked.
+pub fn print_sheet(checks: &[PrintReport]) -> String {
+    let length = |mm: f64| measure(mm, 2, "mm");
+    let row = |c: &PrintReport| {
+        [
+            escaped(&c.check),
+            length(c.value_mm),
+            length(c.wanted_mm),
+            length(c.limit_mm),
+            mark(c.ok).into(),
+            place(c.place),
+            escaped(&c.note),
+        ]
     };
-    let rows: Vec<_> = checks
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|c| {
-            [
-                text(&c["check"]),
-                length(&c["value_mm"]),
-                length(&c["wanted_mm"]),
-                length(&c["limit_mm"]),
-                mark(c["ok"] == true).into(),
-                place(&c["place"]),
-                text(&c["note"]),
-            ]
-        })
-        .collect();
+    let rows: Vec<_> = checks.iter().map(row).collect();
     let heads = [
         "check", "found", "wanted", "limit", "holds", "place", "note",
     ];

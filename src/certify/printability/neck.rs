@@ -1,11 +1,15 @@
-//! Horizontal sections of one carved pillar.
+//! Necks: carved pillars where they are thinnest.
 //!
-//! Takes the pillar with its reliefs, because the backing of a relief carries as well as the pillar it replaces. Gives the section
+//! Takes a pillar with its reliefs, because the backing of a relief carries as well as the pillar it replaces. Gives the section
 //! whose widest inscribed circle is the smallest: a neck, wherever in the section it lies.
 
+use super::check::{PrintCheck, PrintFinding, Printed};
+use crate::certify::point::without_minus_zero;
 use crate::geom::inscribed;
 use crate::mesh::TriMesh;
+use crate::support::SupportKind;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Distance between sections, millimetres: a neck of any strength is longer.
 const STEP_MM: f64 = 0.5;
@@ -14,9 +18,43 @@ const PRECISION_MM: f64 = 0.01;
 /// Heights are shifted by this, millimetres: a plane through a vertex tells nothing of its two sides.
 const OFF_VERTICES_MM: f64 = 0.001_234_5;
 
+/// The pillar whose thinnest section leaves least beyond its layer's core.
+pub fn core(printed: &Printed) -> Option<PrintCheck> {
+    let found: Vec<_> = printed
+        .supports
+        .par_iter()
+        .zip(printed.standing)
+        .filter_map(|(support, solid)| {
+            let SupportKind::Pillar { bottom, top, .. } = support.kind else {
+                return None;
+            };
+            let wanted = support.layer?.core;
+            Some((
+                support,
+                thinnest(solid.mesh(), bottom.max(0.0), top)?,
+                wanted,
+            ))
+        })
+        .collect();
+    let (support, neck, wanted) = found
+        .into_iter()
+        .min_by(|a, b| (a.1.width - a.2).total_cmp(&(b.1.width - b.2)))?;
+    Some(PrintCheck {
+        finding: PrintFinding::Core {
+            support: support.name.clone(),
+            area_mm2: neck.area,
+        },
+        place: without_minus_zero(neck.place),
+        value_mm: neck.width,
+        wanted_mm: wanted,
+        limit_mm: wanted,
+        ok: neck.width >= wanted,
+    })
+}
+
 /// A pillar where it is thinnest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub struct Neck {
     /// Middle of the widest circle.
     pub place: DVec3,
     /// Diameter of that circle, millimetres.
@@ -26,17 +64,17 @@ pub struct Section {
 }
 
 /// The thinnest section between two heights; `None` if they lie closer than two steps.
-pub fn thinnest(mesh: &TriMesh, bottom: f64, top: f64) -> Option<Section> {
+pub fn thinnest(mesh: &TriMesh, bottom: f64, top: f64) -> Option<Neck> {
     let count = ((top - bottom) / STEP_MM) as usize;
     let height = |k: usize| bottom + STEP_MM * (k as f64 + 0.5) + OFF_VERTICES_MM;
-    let mut worst: Option<Section> = None;
+    let mut worst: Option<Neck> = None;
     for (k, outline) in outlines(mesh, count, bottom, height).iter().enumerate() {
         let enough = worst.map_or(f64::INFINITY, |w| w.width / 2.0);
         let circle = inscribed(outline, PRECISION_MM / 2.0, enough);
         let width = circle.map_or(0.0, |c| 2.0 * c.radius);
         if worst.is_none_or(|w| width < w.width) {
             let centre = circle.map_or_else(|| middle(mesh), |c| c.centre);
-            worst = Some(Section {
+            worst = Some(Neck {
                 place: centre.extend(height(k)),
                 width,
                 area: area(outline),

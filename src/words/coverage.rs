@@ -1,0 +1,65 @@
+//! What of the models nothing carries, in words.
+
+use crate::certify::coverage::{Cause, CauseShare, Coverage, Gap};
+use crate::diag::Diagnostic;
+
+/// What is worth telling of a view's gaps: one warning for each cause. `carrier` is what [supports are
+/// called](super::carrier::carrier).
+pub fn warnings(view: &str, found: &Coverage, carrier: &str) -> Vec<Diagnostic> {
+    let causes = found.by_cause();
+    causes.iter().map(|c| warning(view, c, carrier)).collect()
+}
+
+/// The warning of all gaps of one cause, with the largest.
+fn warning(view: &str, cause: &CauseShare, carrier: &str) -> Diagnostic {
+    let gap = cause.largest;
+    let (reason, help) = reason_and_help(gap, carrier);
+    let side = |angle: f64, less: &str, more: &str| {
+        format!(
+            "{:.1} degrees {}",
+            angle.abs(),
+            if angle < 0.0 { less } else { more }
+        )
+    };
+    Diagnostic::warning(format!(
+        "view \"{view}\" misses {:.2} % of its models, mostly {} and {} its line of sight: {reason}",
+        100.0 * cause.share,
+        side(gap.right_deg, "left of", "right of"),
+        side(gap.up_deg, "below", "above"),
+    ))
+    .help(help)
+}
+
+fn reason_and_help(gap: &Gap, carrier: &str) -> (String, String) {
+    let support = gap.support.as_deref().unwrap_or_default();
+    match gap.cause {
+        Cause::NoPillar => (
+            format!("no {carrier} stands there"),
+            format!("add a {carrier} there, or move the models"),
+        ),
+        Cause::PillarTooShort => (
+            format!(
+                "{support} is too short by {:.2} mm",
+                gap.wanted_mm.unwrap_or(0.0)
+            ),
+            format!("raise {support} (`height`), or lower the models"),
+        ),
+        Cause::OtherView => (
+            format!(
+                "view \"{}\" needs {support}",
+                gap.view.as_deref().unwrap_or_default()
+            ),
+            format!(
+                "move {carrier}s or models apart; `contested` says who gets what two views want"
+            ),
+        ),
+        Cause::Hidden => (
+            format!("it meets {support}, which carries nothing for it"),
+            format!("put a {carrier} before it, or move the models"),
+        ),
+        Cause::Infeasible => (
+            format!("no sound relief could be made on {support}"),
+            "thicker layers (`front`, `back`) make it easier".to_owned(),
+        ),
+    }
+}
