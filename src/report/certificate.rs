@@ -4,7 +4,7 @@ use crate::certify::conflicts::Disturbance;
 use crate::certify::coverage::Gap;
 use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
-use crate::whole::Crossings;
+use crate::kinds::Crossings;
 use serde::{Deserialize, Serialize};
 
 /// Lengths below this are none, millimetres: a thousandth of what f32 files resolve.

@@ -27,12 +27,12 @@ pub fn standing_on_zero(body: &Boolean, up: f64, name: &str) -> Result<(Solid, u
     let last = PLACES - 1;
     for k in 0..last {
         let far = sound(&at(FAR + k as f64 * NUDGE)?, name);
-        let back = far.map(|s| Solid::new(moved(s.mesh(), -FAR)));
+        let back = far.map(|s| Solid::new(moved(s.solid.mesh(), -FAR)));
         if let Ok(Ok(solid)) = back {
             return Ok((solid, k));
         }
     }
-    Ok((sound(&at(DVec3::ZERO)?, name)?, last))
+    Ok((sound(&at(DVec3::ZERO)?, name)?.solid, last))
 }
 
 pub fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {

@@ -336,7 +336,7 @@ fn seam(target: &Target, patches: &[Patch], pair: [PatchId; 2], line: [DVec2; 2]
             0.0
         }
     };
-    let [a, b] = faces.map(|f| target.mesh.normal(f));
+    let [a, b] = faces.map(|f| target.mesh.normal(f.at()));
     Seam {
         patches: pair,
         ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),

@@ -2,7 +2,7 @@
 
 use super::field::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
-use crate::index::SupportId;
+use crate::index::{FacetId, SupportId};
 use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;
 use crate::support::SupportKind;
@@ -129,8 +129,8 @@ fn silhouette(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
 fn is_bent(field: &SupportField, sides: &[HalfEdge]) -> bool {
     let normal = |h: &HalfEdge| field.mesh.normal(h.face as usize);
     let apart = |h: &HalfEdge| normal(h).distance(normal(&sides[0])) > PLANE;
-    let parted = |h: &HalfEdge| field.part(h.face) != field.part(sides[0].face);
-    (field.is_shell(sides[0].face) && sides.iter().any(apart)) || sides.iter().any(parted)
+    let parted = |h: &HalfEdge| field.part(FacetId(h.face)) != field.part(FacetId(sides[0].face));
+    (field.is_shell(FacetId(sides[0].face)) && sides.iter().any(apart)) || sides.iter().any(parted)
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.

@@ -166,7 +166,7 @@ pub fn critical(
         boxes[root as usize] = (lo, hi);
         if (hi - lo).length() >= extent {
             let of_cut = order[..=n].iter().map(|o| o.1);
-            let of_cut = of_cut.filter(|i| sets.root(sides[*i].points[0]) == root);
+            let of_cut = of_cut.filter(|i| sets.root(sides[*i].points[0].0) == root);
             let longest = of_cut.max_by(|i, j| sides[*i].length().total_cmp(&sides[*j].length()));
             return longest.map(|side| Critical { rate: *rate, side });
         }

@@ -170,7 +170,7 @@ struct Corners {
 
 impl Corners {
     /// `None` if the cell does not show the model.
-    fn new(sight: &Sight, depths: &Depths, relief: &Relief, c: usize) -> Option<Self> {
+    fn new(sight: &Sight, depths: &Depths, relief: &Relief, c: CellId) -> Option<Self> {
         let Sight { image, groups, .. } = sight;
         let (map, target) = (&image.map, &image.target);
         let cell = &map.cells[c];

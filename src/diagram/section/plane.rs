@@ -14,7 +14,7 @@ pub struct SectionPlane {
 
 impl SectionPlane {
     /// Along the line, and across it.
-    fn axes(&self) -> (DVec2, DVec2) {
+    pub fn axes(&self) -> (DVec2, DVec2) {
         if self.upright {
             (DVec2::Y, DVec2::X)
         } else {

@@ -8,7 +8,7 @@ use crate::formats::markup::escaped;
 use crate::geom::READING_MM;
 use crate::report::certificate::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
-use crate::whole::Crossings;
+use crate::kinds::Crossings;
 use std::fmt::Write as _;
 
 const ARCMIN2: &str = "arcmin²";
