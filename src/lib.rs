@@ -86,11 +86,11 @@
 //!   self-intersection and positive volume after rounding to f32.
 //! - One library, one module: `alum` in [`mesh::simplify`], `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in
 //!   `mimic::solve`, `faer` in `mimic::dual::factor`, `manifold-rust` in `carve::boolean`, `i_overlay` in `carve::hollow`, `exmex` in
-//!   `scene::supports::heights`, `rand` in [`planner`].
+//!   `scene::supports::bodies::heights`, `rand` in [`planner`].
 //! - Geometry does not speak to users: stages return typed findings, and [`words`] turns them into messages. Files and scene texts are
 //!   read by those who know their lines and columns, and word what is wrong there.
 //! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that are no
-//!   pillars are one kind, a body: a new form is a new mesh in `scene::supports::forms`, not a new pipeline.
+//!   pillars are one kind, a body: a new form is a new mesh in `scene::supports::bodies`, not a new pipeline.
 #![forbid(unsafe_code)]
 
 // In reading order; blank lines keep the formatter from sorting them.

@@ -21,7 +21,7 @@ const OWNERS: [(&str, &[&str]); 15] = [
     ("quick_xml", &["formats/"]),
     ("gltf_json", &["formats/"]),
     ("clap", &["cli/"]),
-    ("exmex", &["scene/supports/heights.rs"]),
+    ("exmex", &["scene/supports/bodies/heights.rs"]),
     ("rand", &["planner/"]),
     ("rand_pcg", &["planner/"]),
 ];

@@ -67,46 +67,12 @@ struct Tight {
 }
 
 fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, narrow: f64) -> Diagnostic {
-    let (gap, count, overlap) = (tight.gap, tight.pairs, tight.gap <= 0.0);
-    let more = if count > 1 {
-        format!(" (and {} more pairs)", count - 1)
-    } else {
-        String::new()
+    let more = match tight.pairs {
+        1 => String::new(),
+        pairs => format!(" (and {} more pairs)", pairs - 1),
     };
-    let apart = short(a.axis.distance(b.axis));
-    if overlap {
-        let size = |p: &Standing| {
-            if p.round {
-                p.reach
-            } else {
-                shapes::narrowest(&p.profile)
-            }
-        };
-        let sizes = if (size(a) - size(b)).abs() < 1e-6 {
-            short(size(a))
-        } else {
-            format!("{} mm and {}", short(size(a)), short(size(b)))
-        };
-        let radii = match (a.round, b.round) {
-            (true, true) => format!("radius {sizes} mm but "),
-            (false, false) => format!("{sizes} mm wide but "),
-            _ => String::new(),
-        };
-        let label = if gap < 0.0 {
-            format!("overlaps {} by {} mm", a.name, short(-gap))
-        } else {
-            format!("touches or overlaps {}", a.name)
-        };
-        let wanted = a.reach + b.reach + narrow;
-        return error_at(
-            &b.span,
-            format!("pillars overlap: {radii}centres {apart} mm apart{more}"),
-        )
-        .label(label)
-        .help(format!(
-            "put the centres at least {} mm apart, or make the pillars thinner",
-            short(wanted)
-        ));
+    if tight.gap <= 0.0 {
+        return overlap(a, b, tight.gap, &more, narrow);
     }
     warning_at(
         &b.span,
@@ -114,11 +80,44 @@ fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, narrow: f64) -> Diagno
             "the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed",
             a.name,
             b.name,
-            short(gap)
+            short(tight.gap)
         ),
     )
     .help(format!(
         "leave at least {narrow} mm, or change `printer: (nozzle: ...)`"
+    ))
+}
+
+fn overlap(a: &Standing, b: &Standing, gap: f64, more: &str, narrow: f64) -> Diagnostic {
+    let apart = short(a.axis.distance(b.axis));
+    let size = |p: &Standing| match p.round {
+        true => p.reach,
+        false => shapes::narrowest(&p.profile),
+    };
+    let sizes = if (size(a) - size(b)).abs() < 1e-6 {
+        short(size(a))
+    } else {
+        format!("{} mm and {}", short(size(a)), short(size(b)))
+    };
+    let radii = match (a.round, b.round) {
+        (true, true) => format!("radius {sizes} mm but "),
+        (false, false) => format!("{sizes} mm wide but "),
+        _ => String::new(),
+    };
+    let label = if gap < 0.0 {
+        format!("overlaps {} by {} mm", a.name, short(-gap))
+    } else {
+        format!("touches or overlaps {}", a.name)
+    };
+    let wanted = a.reach + b.reach + narrow;
+    error_at(
+        &b.span,
+        format!("pillars overlap: {radii}centres {apart} mm apart{more}"),
+    )
+    .label(label)
+    .help(format!(
+        "put the centres at least {} mm apart, or make the pillars thinner",
+        short(wanted)
     ))
 }
 

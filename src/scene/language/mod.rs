@@ -1,4 +1,4 @@
-//! The scene language: what may be written ([`raw`]), what it means ([`schema`]), and texts in it.
+//! The scene language: what may be written ([`raw`]), what that means for people ([`schema`]), and texts in it.
 
 pub mod quality;
 pub mod raw;

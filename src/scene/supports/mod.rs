@@ -3,15 +3,12 @@
 //! Takes the scene's `pillars`, `base`, `supports` and `depth`; gives [`Support`](crate::support::Support)s.
 //!
 //! `pillars` puts entries up at their `places`, with `cross_section`s and `depths`; `bases` is the base under them; `standing` is what
-//! both are until they become solids. `bodies` are all other supports; `forms` are their meshes, `heights` what a wave's face is.
-//! `shapes` are outlines in plan.
+//! both are until they become solids. `bodies` are all other supports, one file a form. `shapes` are outlines in plan.
 
 pub mod bases;
 pub mod bodies;
 pub mod cross_section;
 pub mod depths;
-mod forms;
-mod heights;
 pub mod pillars;
 mod places;
 pub mod shapes;

@@ -7,7 +7,7 @@ use super::shapes;
 use super::standing::{BasePlate, Standing};
 use crate::scene::defaults;
 use crate::scene::language::raw::RawPillars;
-use crate::scene::text::{Field, List, Reader, Span, error_at};
+use crate::scene::text::{List, Reader, Span, error_at};
 use crate::support::{Layer, Support, SupportKind};
 use glam::DVec2;
 
@@ -197,10 +197,7 @@ fn entry(reader: &mut Reader, raw: &RawPillars, span: &Span, depth: &Wish) -> Op
     let section = reader
         .required(&raw.shape, "shape", owner, span)
         .and_then(|(s, at)| cross_section(reader, s, &at));
-    let height = match &raw.height {
-        Field::Missing => Some(defaults::PILLAR_HEIGHT),
-        field => reader.positive(field, "height"),
-    };
+    let height = reader.positive_or(&raw.height, "height", defaults::PILLAR_HEIGHT);
     let spots = reader
         .required(&raw.places, "places", owner, span)
         .and_then(|(p, at)| places::spots(reader, p, &at));

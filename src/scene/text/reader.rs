@@ -179,6 +179,14 @@ impl<'a> Reader<'a> {
         self.positive_at(field, name).map(|(value, _)| value)
     }
 
+    /// A length above zero, or the usual one if it is not given.
+    pub fn positive_or(&mut self, field: &Field<f64>, name: &str, usual: f64) -> Option<f64> {
+        match field {
+            Field::Missing => Some(usual),
+            field => self.positive(field, name),
+        }
+    }
+
     /// A length above zero and its place.
     pub fn positive_at(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
         let (value, span) = self.length(field, name)?;

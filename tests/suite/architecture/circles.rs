@@ -332,8 +332,8 @@ fn told(folder: &Module, members: &[&String], round: &[String], graph: &Graph) -
     }
 }
 
-/// Loops of the sources, with `added` at the end of the file at `path`.
-fn found(path: &str, added: &str) -> Vec<Loop> {
+/// The sources, with `added` at the end of the file at `path`.
+fn house(path: &str, added: &str) -> House {
     let sources = super::sources();
     let text = |source: &super::Source| {
         let more = if source.path == path { added } else { "" };
@@ -341,12 +341,12 @@ fn found(path: &str, added: &str) -> Vec<Loop> {
     };
     let texts: Vec<String> = sources.iter().map(text).collect();
     let paths = sources.iter().map(|s| s.path.as_str());
-    loops(&House::new(paths.zip(texts.iter().map(String::as_str))))
+    House::new(paths.zip(texts.iter().map(String::as_str)))
 }
 
 #[test]
 fn files_side_by_side_import_without_loops() {
-    let found = found("", "");
+    let found = loops(&house("", ""));
     let new = found.iter().filter(|l| !KNOWN.contains(&l.key.as_str()));
     let new: Vec<&str> = new.map(|l| l.spelled.as_str()).collect();
     assert!(new.is_empty(), "import loops:\n{}", new.join("\n"));
@@ -354,6 +354,31 @@ fn files_side_by_side_import_without_loops() {
         let still = found.iter().any(|l| l.key == *known);
         assert!(still, "this loop is gone, take it out of KNOWN: {known}");
     }
+}
+
+/// Of a folder whose file lists its modules in another order than the alphabet's: which of them name a later one.
+fn out_of_order(house: &House) -> Vec<String> {
+    let orders: BTreeMap<&Module, &Vec<String>> = house
+        .files
+        .iter()
+        .map(|(module, contents)| (module, &contents.children))
+        .filter(|(_, children)| !children.is_sorted())
+        .collect();
+    let wrong = house.edges().into_iter().filter(|edge| {
+        let place = |name: &String| orders.get(&edge.folder)?.iter().position(|m| m == name);
+        place(&edge.from).is_some_and(|from| place(&edge.to).is_some_and(|to| from < to))
+    });
+    wrong.map(|edge| edge.why).collect()
+}
+
+#[test]
+fn modules_in_reading_order_name_earlier_ones() {
+    let wrong = out_of_order(&house("", ""));
+    assert!(
+        wrong.is_empty(),
+        "names a later module:\n{}",
+        wrong.join("\n")
+    );
 }
 
 #[test]
@@ -375,7 +400,7 @@ fn a_loop_that_is_added_to_the_sources_is_found() {
             "src/scene/checks: eyes mod.rs",
         ),
     ] {
-        let found = found(path, added);
+        let found = loops(&house(path, added));
         let told = found.iter().any(|l| l.key.starts_with(key));
         assert!(told, "{added} in {path}");
     }
@@ -383,7 +408,7 @@ fn a_loop_that_is_added_to_the_sources_is_found() {
 
 #[cfg(test)]
 mod rules {
-    use super::{House, loops};
+    use super::{House, loops, out_of_order};
 
     fn found(sources: &[(&str, &str)]) -> Vec<String> {
         let loops = loops(&House::new(sources.iter().copied()));
@@ -411,6 +436,19 @@ mod rules {
         assert_eq!(loops.len(), 1);
         let told = "src/f: a b c\n    a -> b: f/a.rs:1 names super::b::B\n    b -> c: f/b.rs:1 names super::c::C\n    c -> a: f/c.rs:1 names super::a::A";
         assert_eq!(loops[0].spelled, told);
+    }
+
+    #[test]
+    fn an_order_that_is_not_the_alphabets_is_one_to_be_read_in() {
+        let children = [("f/a.rs", "use super::b::B;"), ("f/b.rs", "")];
+        let wrong =
+            |own| out_of_order(&House::new([("f/mod.rs", own)].into_iter().chain(children)));
+        assert_eq!(wrong("mod a; pub mod b;"), [""; 0]);
+        assert_eq!(wrong("mod b; pub mod a;"), [""; 0]);
+        assert_eq!(
+            wrong("mod c; mod a; mod b;"),
+            ["f/a.rs:1 names super::b::B"]
+        );
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct Contents {
     pub paths: Vec<Path>,
     /// Inline modules, each with those it stands in before it.
     pub inline: Vec<Vec<String>>,
+    /// Modules that have files of their own, in the order of their declarations.
+    pub children: Vec<String>,
     /// Names of items, wherever in the file.
     pub items: BTreeSet<String>,
     /// All words of the code, those of `use` and `mod` declarations left out.
@@ -77,6 +79,8 @@ pub fn contents(text: &str) -> Contents {
                     open.push((at(i + 1).to_string(), depth));
                     let inside = open.iter().map(|(name, _)| name.clone());
                     found.inline.push(inside.collect());
+                } else {
+                    found.children.push(at(i + 1).to_string());
                 }
                 i += 1;
             }

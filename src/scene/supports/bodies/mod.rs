@@ -1,0 +1,18 @@
+//! Supports that are no pillars: plates, strips, stairs, grooves, waves and meshes.
+//!
+//! Takes the scene's `supports`; gives [`Support`](crate::support::Support)s, each a closed mesh with a depth layer.
+//!
+//! A form of support is one file: its fields become a [`FramedMesh`](framed::FramedMesh) there. `list` asks the file of every entry's
+//! form and makes supports of what it gives.
+
+mod entry;
+mod framed;
+mod groove;
+mod heights;
+mod list;
+mod mesh;
+mod plates;
+mod stairs;
+mod wave;
+
+pub use list::bodies;
