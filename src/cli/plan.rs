@@ -15,13 +15,13 @@ use std::path::Path;
 
 /// What is searched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Search {
+pub(super) enum Search {
     Plan,
     Repair,
 }
 
 /// Runs the command; gives the exit code.
-pub fn run(
+pub(super) fn run(
     messages: &Messages,
     global: &Global,
     args: &SceneArgs,
