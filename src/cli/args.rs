@@ -14,7 +14,7 @@ Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, 3 built, but not 
 /// Turns a scene of models, eyes and pillars into a printable pillar forest: each model appears from its own eye only.
 #[derive(Debug, Parser)]
 #[command(name = "pillarforest", version, after_help = AFTER, propagate_version = true, max_term_width = 100)]
-pub struct Cli {
+pub(super) struct Cli {
     #[command(subcommand)]
     pub command: Command,
     #[command(flatten)]
@@ -22,7 +22,7 @@ pub struct Cli {
 }
 
 #[derive(Args, Debug)]
-pub struct Global {
+pub(super) struct Global {
     /// Say less: errors and the last line only
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
@@ -41,14 +41,14 @@ pub struct Global {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum When {
+pub(super) enum When {
     Auto,
     Always,
     Never,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Style {
+pub(super) enum Style {
     /// With the line of the scene and what to do
     Human,
     /// One line each: file:line:column: error: ...
@@ -58,13 +58,13 @@ pub enum Style {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Deny {
+pub(super) enum Deny {
     Warnings,
 }
 
 /// How much work a run does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Effort {
+pub(super) enum Effort {
     /// Models of at most 10000 vertices, pictures of 320 pixels, no lights and no camouflage
     Draft,
     /// As the scene is written
@@ -74,7 +74,7 @@ pub enum Effort {
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(super) enum Command {
     /// Write a commented scene, and the model it shows, to start from
     Init {
         /// Where to write the scene; the model goes to models/ beside it
@@ -154,7 +154,7 @@ pub enum Command {
 }
 
 #[derive(Args, Clone, Debug)]
-pub struct SceneArgs {
+pub(super) struct SceneArgs {
     /// The scene
     #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
     pub scene: PathBuf,
@@ -179,7 +179,7 @@ pub struct SceneArgs {
 }
 
 #[derive(Args, Clone, Debug)]
-pub struct FigureArgs {
+pub(super) struct FigureArgs {
     /// Which of them, as `--list` names them [default: all]
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
@@ -201,7 +201,7 @@ pub struct FigureArgs {
 }
 
 #[derive(Args, Clone, Debug)]
-pub struct SearchArgs {
+pub(super) struct SearchArgs {
     /// Directory for all files, or one .ron file for the layout alone [default: out/<scene>]
     #[arg(short, long, value_hint = ValueHint::AnyPath)]
     pub output: Option<PathBuf>,

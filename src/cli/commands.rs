@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 const NOTHING_YET: &str = "Nothing was written; `--force` writes it all the same.";
 
 /// Runs the command; gives the exit code.
-pub fn run(cli: &Cli) -> u8 {
+pub(super) fn run(cli: &Cli) -> u8 {
     let messages = Messages::new(&cli.global);
     match &cli.command {
         Command::Init { scene, force } => init(&messages, scene, *force),

@@ -15,7 +15,7 @@ use std::process::{Command, Output, Stdio};
 use std::time::Instant;
 
 /// Makes the figures; gives the exit code.
-pub fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8 {
+pub(super) fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8 {
     if args.list {
         let line = |f: &Figure| format!("{:<10}{}: {}\n", f.name, f.paper, f.title);
         return say(&FIGURES.iter().map(line).collect::<String>());

@@ -18,7 +18,7 @@ const LARGEST_FILE: u64 = 2 << 30;
 ///
 /// # Errors
 /// No such file, not a regular file, or not UTF-8 (with the offset of the first bad byte).
-pub fn scene_text(path: &Path) -> Result<String, Diagnostic> {
+pub(super) fn scene_text(path: &Path) -> Result<String, Diagnostic> {
     let shown = path.display().to_string();
     let bytes = regular(path).map_err(|problem| match path.exists() {
         true => problem,
@@ -43,7 +43,7 @@ pub fn scene_text(path: &Path) -> Result<String, Diagnostic> {
 }
 
 /// The bytes of a regular file of reasonable size.
-pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+pub(super) fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     let shown = path.display().to_string();
     let fail = |why: String| Diagnostic::error(format!("cannot read \"{shown}\": {why}"));
     let meta = fs::metadata(path).map_err(|e| fail(e.to_string()))?;
@@ -69,7 +69,7 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Diagnostic> {
 }
 
 /// Where the files that a scene names are looked for.
-pub struct SceneFiles {
+pub(super) struct SceneFiles {
     folder: PathBuf,
     libraries: Vec<PathBuf>,
     /// Whether the user lets the scene name files anywhere.
@@ -80,7 +80,7 @@ pub struct SceneFiles {
 
 impl SceneFiles {
     /// The files of a scene; `anywhere` lets it name files outside of its folder.
-    pub fn of(scene: &Path, libraries: Vec<PathBuf>, anywhere: bool) -> Self {
+    pub(super) fn of(scene: &Path, libraries: Vec<PathBuf>, anywhere: bool) -> Self {
         let folder = scene
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
@@ -94,7 +94,7 @@ impl SceneFiles {
     }
 
     /// The files that were read.
-    pub fn into_read(self) -> Vec<PathBuf> {
+    pub(super) fn into_read(self) -> Vec<PathBuf> {
         self.read.into_inner()
     }
 
@@ -102,7 +102,7 @@ impl SceneFiles {
     ///
     /// # Errors
     /// The name is no plain path, leads out of the scene's folder, or there is no such regular file.
-    pub fn read(&self, name: &str) -> Result<Vec<u8>, Diagnostic> {
+    pub(super) fn read(&self, name: &str) -> Result<Vec<u8>, Diagnostic> {
         let (path, found) = self.find(name)?;
         let bytes = regular(&found)?;
         self.read.borrow_mut().push(path);

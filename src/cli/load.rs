@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// A scene read for a command, with its text for messages.
-pub struct Loaded {
+pub(super) struct Loaded {
     pub scene: Scene,
     pub warnings: Vec<Diagnostic>,
     pub source: Source,
@@ -19,10 +19,10 @@ pub struct Loaded {
 }
 
 /// How a scene is read: [`scene::resolve`] or [`scene::resolve_to_mend`].
-pub type Resolve = fn(&str, scene::ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>>;
+pub(super) type Resolve = fn(&str, scene::ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>>;
 
 /// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
-pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<Loaded> {
+pub(super) fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<Loaded> {
     if let Some(jobs) = args.jobs {
         // Before anything runs in parallel: a pool that exists already would keep its size.
         let _ = rayon::ThreadPoolBuilder::new()
@@ -72,7 +72,7 @@ pub fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<L
 }
 
 /// The folders that the user named, or else the one that the surroundings name.
-pub fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
+pub(super) fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
     if !named.is_empty() {
         return named.to_vec();
     }
@@ -90,7 +90,7 @@ fn quality(effort: Effort) -> Quality {
 
 impl Loaded {
     /// Tells, from now on, whether a search for pillars has had its time. The library has no clock.
-    pub fn time_is_up(&self) -> impl Fn() -> bool + Sync + use<> {
+    pub(super) fn time_is_up(&self) -> impl Fn() -> bool + Sync + use<> {
         let brief = self.scene.brief.as_ref();
         let seconds = brief.map_or(f64::INFINITY, |b| b.seconds);
         let start = Instant::now();
@@ -98,7 +98,7 @@ impl Loaded {
     }
 
     /// Prints what ended the run; gives the exit code.
-    pub fn failed(&self, messages: &Messages, problems: &[Diagnostic]) -> u8 {
+    pub(super) fn failed(&self, messages: &Messages, problems: &[Diagnostic]) -> u8 {
         let all: Vec<Diagnostic> = problems.iter().chain(&self.warnings).cloned().collect();
         messages.print(problems, Some(&self.source));
         messages.closing(&all, NOTHING);

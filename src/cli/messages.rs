@@ -10,13 +10,13 @@ use std::io::{IsTerminal, Write as _};
 use std::ops::Range;
 
 /// The scene's name and text, for excerpts.
-pub struct Source {
+pub(super) struct Source {
     pub path: String,
     pub text: String,
 }
 
 /// Prints diagnostics to standard error.
-pub struct Messages {
+pub(super) struct Messages {
     style: Style,
     coloured: bool,
     quiet: bool,
@@ -27,7 +27,7 @@ pub struct Messages {
 const AROUND: usize = 120;
 
 impl Messages {
-    pub fn new(global: &Global) -> Self {
+    pub(super) fn new(global: &Global) -> Self {
         let auto = || {
             std::io::stderr().is_terminal()
                 && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
@@ -46,12 +46,12 @@ impl Messages {
     }
 
     /// Whether programs read them.
-    pub fn is_json(&self) -> bool {
+    pub(super) fn is_json(&self) -> bool {
         self.style == Style::Json
     }
 
     /// Prints all; tells whether the run must stop.
-    pub fn print(&self, list: &[Diagnostic], source: Option<&Source>) -> bool {
+    pub(super) fn print(&self, list: &[Diagnostic], source: Option<&Source>) -> bool {
         let mut out = String::new();
         for diagnostic in list
             .iter()
@@ -73,7 +73,7 @@ impl Messages {
     }
 
     /// `2 errors, 1 warning. Nothing was written.`
-    pub fn closing(&self, list: &[Diagnostic], last: &str) {
+    pub(super) fn closing(&self, list: &[Diagnostic], last: &str) {
         if self.style == Style::Json {
             return;
         }
@@ -134,7 +134,7 @@ impl Messages {
                 )));
             }
             (Some(Place::File(file)), _) => {
-                group = group.element(annotate_snippets::Origin::path(escaped(file)))
+                group = group.element(annotate_snippets::Origin::path(escaped(file)));
             }
             (Some(Place::Scene(_)) | None, _) => {}
         }

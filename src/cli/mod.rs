@@ -19,7 +19,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 /// Parses the arguments and runs the command.
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     let cli = args::Cli::parse();
     ExitCode::from(commands::run(&cli))
 }

@@ -15,13 +15,13 @@ use std::path::Path;
 
 /// What is searched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Search {
+pub(super) enum Search {
     Plan,
     Repair,
 }
 
 /// Runs the command; gives the exit code.
-pub fn run(
+pub(super) fn run(
     messages: &Messages,
     global: &Global,
     args: &SceneArgs,
@@ -72,18 +72,14 @@ pub fn run(
             let seconds = reporter.finish().as_secs_f64();
             let pillars = count(plan.pillars.len(), "pillar");
             let views = count(laid.views.len(), "view");
-            let done = format!(
-                "wrote {}  {pillars}, {views}  ({seconds:.1} s)\n",
-                path.display()
-            );
+            let written = path.display();
+            let done = format!("wrote {written}  {pillars}, {views}  ({seconds:.1} s)\n");
             if global.quiet {
                 return say(&done);
             }
-            say(&changes(&loaded.scene, &laid, &plan));
-            say(&table(&loaded.scene, &plan));
-            say(&done);
-            say(&usage(&args.scene, &path));
-            say(&note(&loaded.scene, &plan))
+            let before = changes(&loaded.scene, &laid, &plan) + &table(&loaded.scene, &plan);
+            let after = usage(&args.scene, &path) + &note(&loaded.scene, &plan);
+            say(&(before + &done + &after))
         }
     }
 }

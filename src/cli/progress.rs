@@ -10,7 +10,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 const STEPS: u64 = 1000;
 
 /// Takes stage reports from any thread.
-pub struct Reporter {
+pub(super) struct Reporter {
     start: Instant,
     silent: bool,
     verbose: bool,
@@ -25,7 +25,7 @@ struct State {
 }
 
 impl Reporter {
-    pub fn new(silent: bool, verbose: bool) -> Self {
+    pub(super) fn new(silent: bool, verbose: bool) -> Self {
         let state = State {
             bar: None,
             stages: Vec::new(),
@@ -40,13 +40,13 @@ impl Reporter {
     }
 
     /// A stage is at work, `share` of the whole run is done.
-    pub fn report(&self, stage: &str, share: f64) {
+    pub(super) fn report(&self, stage: &str, share: f64) {
         let elapsed = self.start.elapsed();
         // A thread that panicked while reporting must not take the others with it.
         let mut state = self
             .state
             .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         if state.stages.iter().all(|(name, _)| name != stage) {
             state.stages.push((stage.to_string(), elapsed));
         }
@@ -70,11 +70,11 @@ impl Reporter {
     }
 
     /// Removes the bar; gives the time since the start.
-    pub fn finish(&self) -> Duration {
+    pub(super) fn finish(&self) -> Duration {
         let state = self
             .state
             .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(bar) = &state.bar {
             bar.finish_and_clear();
         }
@@ -82,7 +82,7 @@ impl Reporter {
     }
 
     /// Prints how long every stage took and the largest memory so far: a line each, or one JSON object.
-    pub fn tell(&self, json: bool) {
+    pub(super) fn tell(&self, json: bool) {
         let (stages, all) = self.stages();
         let peak = peak_mb();
         if json {
@@ -109,7 +109,7 @@ impl Reporter {
         let state = self
             .state
             .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         let end = self.start.elapsed();
         let next = state.stages.iter().skip(1).map(|(_, t)| *t).chain([end]);
         let stages = state

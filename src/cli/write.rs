@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Where a run writes to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Destination {
+pub(super) enum Destination {
     /// All files into a directory.
     Directory(PathBuf),
     /// The one file of a run with this path's ending, to this path.
@@ -26,7 +26,11 @@ impl Destination {
     ///
     /// # Errors
     /// The destination cannot be written: a file in the way, an unknown ending, no such place.
-    pub fn new(output: Option<&Path>, scene: &Path, allowed: &[&str]) -> Result<Self, Diagnostic> {
+    pub(super) fn new(
+        output: Option<&Path>,
+        scene: &Path,
+        allowed: &[&str],
+    ) -> Result<Self, Diagnostic> {
         let stem = scene.file_stem().unwrap_or("scene".as_ref());
         // A scene called `...ron` has the stem `..`.
         let plain = Path::new(stem).components().all(is_plain);
@@ -69,7 +73,7 @@ impl Destination {
     ///
     /// # Errors
     /// Which of them is in the way.
-    pub fn spares<'n>(
+    pub(super) fn spares<'n>(
         &self,
         names: impl IntoIterator<Item = &'n str>,
         scene: &Path,
@@ -100,7 +104,7 @@ impl Destination {
     ///
     /// # Errors
     /// What the system said. No file is torn even then.
-    pub fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
+    pub(super) fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
         match self {
             Self::Directory(directory) => {
                 let fail = |e: std::io::Error| {
@@ -182,13 +186,13 @@ fn staged(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
         .tempdir_in(directory)?;
     for file in files {
         let path = staging.path().join(&file.path);
-        fs::create_dir_all(self::parent(&path))?;
+        fs::create_dir_all(parent(&path))?;
         fs::write(&path, &file.bytes)?;
     }
     // Only now are other files in the target touched, by renames on one file system; those not of this run stay.
     for file in files {
         let path = directory.join(&file.path);
-        fs::create_dir_all(self::parent(&path))?;
+        fs::create_dir_all(parent(&path))?;
         fs::rename(staging.path().join(&file.path), &path)?;
     }
     staging.close()
@@ -208,7 +212,7 @@ fn no_links(directory: &Path, folder: &Path) -> std::io::Result<()> {
 }
 
 /// Writes one file by way of a temporary one beside it.
-pub fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+pub(super) fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     fs::create_dir_all(parent(path))?;
     let staging = tempfile::Builder::new()
         .prefix(".pillarforest-")

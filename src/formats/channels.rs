@@ -30,7 +30,7 @@ struct Channel {
 
 /// See the module.
 #[derive(Default)]
-pub struct Channels {
+pub(super) struct Channels {
     kept: Vec<Channel>,
     /// Properties for which there is no place: named before, or too many.
     refused: Vec<String>,
@@ -38,7 +38,7 @@ pub struct Channels {
 
 impl Channels {
     /// The channel for a property; `None` if its values are not to be kept.
-    pub fn place(&mut self, name: &str, one: Option<f64>) -> Option<usize> {
+    pub(super) fn place(&mut self, name: &str, one: Option<f64>) -> Option<usize> {
         if NORMALS.contains(&name) {
             return None;
         }
@@ -54,12 +54,12 @@ impl Channels {
         Some(self.kept.len() - 1)
     }
 
-    pub fn push(&mut self, channel: usize, value: f64) {
+    pub(super) fn push(&mut self, channel: usize, value: f64) {
         self.kept[channel].values.push(value);
     }
 
     /// The attributes of `count` vertices with these faces, and a warning for each that is of no use.
-    pub fn finish(
+    pub(super) fn finish(
         mut self,
         file: &str,
         count: usize,

@@ -5,7 +5,7 @@ use crate::formats::text::coordinate;
 
 /// Tells whether the colours of a file's vertices are of use.
 #[derive(Default)]
-pub struct Colours {
+pub(super) struct Colours {
     /// Vertices with one.
     with: usize,
     without: usize,
@@ -15,7 +15,7 @@ pub struct Colours {
 
 impl Colours {
     /// The colour of the next vertex, on this line.
-    pub fn check(&mut self, line: usize, words: [&[u8]; 3]) {
+    pub(super) fn check(&mut self, line: usize, words: [&[u8]; 3]) {
         for word in words {
             if let Err(why) = coordinate(word).and_then(in_range) {
                 self.bad.get_or_insert((line, why));
@@ -25,7 +25,7 @@ impl Colours {
     }
 
     /// The next vertex has none.
-    pub fn miss(&mut self) {
+    pub(super) fn miss(&mut self) {
         self.without += 1;
     }
 
@@ -33,7 +33,7 @@ impl Colours {
     ///
     /// # Errors
     /// A warning that tells why the file's colours are of no use.
-    pub fn finish(&self, file: &str) -> Result<bool, Diagnostic> {
+    pub(super) fn finish(&self, file: &str) -> Result<bool, Diagnostic> {
         if self.with == 0 {
             return Ok(false);
         }
@@ -56,7 +56,7 @@ impl Colours {
 }
 
 /// Red, green and blue of all vertices, one after the other, as opaque colours from 0 to 1.
-pub fn scaled(read: &[f64]) -> Vec<[f64; 4]> {
+pub(super) fn scaled(read: &[f64]) -> Vec<[f64; 4]> {
     let most = read.iter().fold(0.0, |m: f64, c| m.max(*c));
     let one = if most > 1.0 { 255.0 } else { 1.0 };
     let opaque = |c: &[f64]| [c[0] / one, c[1] / one, c[2] / one, 1.0];

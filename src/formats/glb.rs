@@ -2,6 +2,7 @@
 //!
 //! Scene axes map as `(x, y, z) -> (x, z, -y) / 1000`.
 
+use crate::formats::narrow::{count, single};
 use crate::formats::part::Part;
 use crate::mesh::TriMesh;
 use glam::{DMat3, DQuat, DVec3};
@@ -68,7 +69,7 @@ pub fn write_glb(parts: &[Part], cameras: &[Camera]) -> Vec<u8> {
         nodes,
     };
     root.scene = Some(root.push(scene));
-    frame(serde_json::to_vec(&root).unwrap_or_default(), binary)
+    frame(serde_json::to_vec(&root).unwrap_or_default(), &binary)
 }
 
 fn generator() -> String {
@@ -199,12 +200,12 @@ fn push_camera(root: &mut Root, camera: &Camera) -> Index<Node> {
     let right = forward.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::X);
     let rotation = DQuat::from_mat3(&DMat3::from_cols(right, right.cross(forward), -forward));
     let distance = eye.distance(target).max(1e-3);
-    let (znear, zfar) = ((distance / 100.0) as f32, (distance * 10.0) as f32);
+    let (znear, zfar) = (single(distance / 100.0), single(distance * 10.0));
     let (perspective, orthographic, type_) = match camera.lens {
         Lens::Perspective(fov) => {
             let lens = Perspective {
                 aspect_ratio: Some(1.0),
-                yfov: fov as f32,
+                yfov: single(fov),
                 zfar: Some(zfar),
                 znear,
                 extensions: None,
@@ -213,7 +214,7 @@ fn push_camera(root: &mut Root, camera: &Camera) -> Index<Node> {
             (Some(lens), None, CameraType::Perspective)
         }
         Lens::Orthographic(half) => {
-            let half = (half / 1000.0) as f32;
+            let half = single(half / 1000.0);
             let lens = Orthographic {
                 xmag: half,
                 ymag: half,
@@ -243,7 +244,7 @@ fn push_camera(root: &mut Root, camera: &Camera) -> Index<Node> {
 }
 
 /// The container: a 12-byte header, the JSON chunk padded with spaces, the binary chunk (left out if empty).
-fn frame(mut json: Vec<u8>, binary: Vec<u8>) -> Vec<u8> {
+fn frame(mut json: Vec<u8>, binary: &[u8]) -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
     let binary_bytes = if binary.is_empty() {
         0
@@ -254,14 +255,14 @@ fn frame(mut json: Vec<u8>, binary: Vec<u8>) -> Vec<u8> {
     let mut glb = Vec::with_capacity(total);
     glb.extend_from_slice(b"glTF");
     glb.extend_from_slice(&2u32.to_le_bytes());
-    glb.extend_from_slice(&(total as u32).to_le_bytes());
-    glb.extend_from_slice(&(json.len() as u32).to_le_bytes());
+    glb.extend_from_slice(&count(total).to_le_bytes());
+    glb.extend_from_slice(&count(json.len()).to_le_bytes());
     glb.extend_from_slice(b"JSON");
     glb.extend_from_slice(&json);
     if !binary.is_empty() {
-        glb.extend_from_slice(&(binary.len() as u32).to_le_bytes());
+        glb.extend_from_slice(&count(binary.len()).to_le_bytes());
         glb.extend_from_slice(b"BIN\0");
-        glb.extend_from_slice(&binary);
+        glb.extend_from_slice(binary);
     }
     glb
 }

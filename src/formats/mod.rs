@@ -4,11 +4,18 @@
 //! Printable formats take a [`crate::mesh::Solid`], so a mesh with a hole cannot be exported by mistake; only a
 //! [`crate::surface::Surface`], which is for other programs, may have any.
 
+#![warn(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss
+)]
+
 mod body;
 mod channels;
 mod colours;
 mod glb;
 pub mod markup;
+mod narrow;
 mod obj_check;
 mod part;
 mod read;

@@ -48,7 +48,7 @@ const MAX_NAME: usize = 255;
 
 /// What of a file can be used.
 #[derive(Clone, Copy, Debug)]
-pub struct Usable {
+pub(super) struct Usable {
     pub vertices: usize,
     /// Whether every vertex has a colour.
     pub coloured: bool,
@@ -58,7 +58,7 @@ pub struct Usable {
 
 /// # Errors
 /// The first line that cannot be read as what it claims to be, or a file without faces.
-pub fn check(file: &str, bytes: &[u8]) -> Result<Warned<Usable>, Diagnostic> {
+pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Warned<Usable>, Diagnostic> {
     let mut scan = Scan::new(file, bytes);
     for (number, line) in logical_lines(bytes) {
         scan.line(number, &line)?;
@@ -67,7 +67,7 @@ pub fn check(file: &str, bytes: &[u8]) -> Result<Warned<Usable>, Diagnostic> {
 }
 
 /// Lines with continuations (a `\` at the end) joined and comments cut off; the number is that of the first one.
-pub fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
+pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
     let mut physical = lines(without_bom(bytes));
     std::iter::from_fn(move || {
         let (number, first) = physical.next()?;
@@ -106,10 +106,10 @@ struct Scan<'a> {
     normals: usize,
     faces: usize,
     /// Vertices that faces use before they are there: the line and the 1-based index.
-    early: Vec<(usize, i64)>,
+    early: Vec<(usize, usize)>,
     /// Largest vt and vn index with its line: they may be defined later.
-    largest_vt: (i64, usize),
-    largest_vn: (i64, usize),
+    largest_vt: (usize, usize),
+    largest_vn: (usize, usize),
     bad_names: Vec<usize>,
     unknown: Vec<(usize, String)>,
 }
@@ -143,7 +143,7 @@ impl<'a> Scan<'a> {
             ));
         }
         let mut words = line
-            .split(|b| b.is_ascii_whitespace())
+            .split(u8::is_ascii_whitespace)
             .filter(|w| !w.is_empty());
         let Some(keyword) = words.next() else {
             return Ok(());
@@ -169,7 +169,7 @@ impl<'a> Scan<'a> {
             // Old editors end files with a Ctrl-Z.
             b"\x1A" => Ok(()),
             _ if IGNORED.contains(&keyword) => Ok(()),
-            _ if keyword.iter().all(|b| b.is_ascii_graphic()) => {
+            _ if keyword.iter().all(u8::is_ascii_graphic) => {
                 self.unknown.push((number, excerpt(keyword)));
                 Ok(())
             }
@@ -245,12 +245,9 @@ impl<'a> Scan<'a> {
     /// Notes the indices of `7`, `7/1`, `7//3`, `7/1/3` or of the same with negative (relative) numbers.
     fn corner(&mut self, number: usize, word: &[u8]) -> Result<(), String> {
         let mut parts = word.split(|b| *b == b'/');
-        let position = index(
-            parts.next().unwrap_or_default(),
-            self.vertices as i64,
-            "vertex",
-        )?;
-        if position > self.vertices as i64 {
+        let vertex = parts.next().unwrap_or_default();
+        let position = index(vertex, self.vertices, "vertex")?;
+        if position > self.vertices {
             self.early.push((number, position));
         }
         for (part, texture) in parts.by_ref().take(2).zip([true, false]) {
@@ -258,10 +255,10 @@ impl<'a> Scan<'a> {
                 continue;
             }
             if texture {
-                let vt = index(part, self.texture_points as i64, "texture")?;
+                let vt = index(part, self.texture_points, "texture")?;
                 self.largest_vt = self.largest_vt.max((vt, number));
             } else {
-                let vn = index(part, self.normals as i64, "normal")?;
+                let vn = index(part, self.normals, "normal")?;
                 self.largest_vn = self.largest_vn.max((vn, number));
             }
         }
@@ -305,13 +302,13 @@ impl<'a> Scan<'a> {
 
     /// Whether faces use texture points or normals that the file does not have.
     fn dangling(&self) -> bool {
-        self.largest_vt.0 > self.texture_points as i64 || self.largest_vn.0 > self.normals as i64
+        self.largest_vt.0 > self.texture_points || self.largest_vn.0 > self.normals
     }
 
     /// Faces may come before their vertices, so this waits for the end.
     fn check_range(&self) -> Result<(), Diagnostic> {
         let vertices = self.vertices;
-        let missing = |(_, index): &&(usize, i64)| *index > vertices as i64;
+        let missing = |(_, index): &&(usize, usize)| *index > vertices;
         let Some((line, index)) = self.early.iter().find(missing) else {
             return Ok(());
         };
@@ -329,7 +326,7 @@ impl<'a> Scan<'a> {
                 excerpt: String::new(),
             }));
         };
-        let missing_vt = self.largest_vt.0 > self.texture_points as i64;
+        let missing_vt = self.largest_vt.0 > self.texture_points;
         if self.dangling() {
             let (_, line) = if missing_vt {
                 self.largest_vt
@@ -375,7 +372,7 @@ impl<'a> Scan<'a> {
 }
 
 /// An absolute 1-based index; `so_far` elements of its kind have been defined above.
-fn index(word: &[u8], so_far: i64, kind: &str) -> Result<i64, String> {
+fn index(word: &[u8], so_far: usize, kind: &str) -> Result<usize, String> {
     let text = std::str::from_utf8(word).unwrap_or_default();
     let Ok(given) = text.parse::<i64>() else {
         return Err(format!(
@@ -383,13 +380,14 @@ fn index(word: &[u8], so_far: i64, kind: &str) -> Result<i64, String> {
             excerpt(word)
         ));
     };
+    let size = usize::try_from(given.unsigned_abs()).unwrap_or(usize::MAX);
     match given {
         0 => Err(format!("a {kind} index 0: OBJ counts from 1")),
-        1..=0xFFFF_FFFE => Ok(given),
+        1..=0xFFFF_FFFE => Ok(size),
         _ if given > 0 => Err(format!("a {kind} index {given}, more than 4294967294")),
-        _ if given < -so_far => Err(format!(
+        _ if size > so_far => Err(format!(
             "a relative {kind} index {given}, but only {so_far} are defined above"
         )),
-        _ => Ok(so_far + 1 + given),
+        _ => Ok(so_far + 1 - size),
     }
 }

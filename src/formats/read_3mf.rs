@@ -26,7 +26,7 @@ const MAX_COMPONENT_DEPTH: usize = 32;
 ///
 /// # Errors
 /// A broken container, no model, forbidden XML, or objects that cannot be put together.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, Diagnostic> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, Diagnostic> {
     let of_file = |why: String| Diagnostic::error(why).at(Place::File(file.to_owned()));
     let mut container = Container::open(bytes).map_err(of_file)?;
     let root = container.model_part().map_err(of_file)?;
@@ -142,7 +142,10 @@ fn model_target(rels: &[u8]) -> Option<String> {
             Event::Start(e) | Event::Empty(e) if e.local_name().as_ref() == b"Relationship" => {
                 let value = |name: &str| {
                     let attribute = e.try_get_attribute(name).ok()??;
-                    attribute.unescape_value().ok().map(|v| v.into_owned())
+                    attribute
+                        .unescape_value()
+                        .ok()
+                        .map(std::borrow::Cow::into_owned)
                 };
                 if value("Type").is_some_and(|t| t.ends_with("/3dmodel")) {
                     return value("Target");

@@ -17,7 +17,7 @@ use std::io::Write;
 
 /// # Errors
 /// The first line that cannot be read as what it claims to be, or a file without faces.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
     let Warned {
         value: usable,
         warnings,

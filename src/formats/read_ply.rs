@@ -7,6 +7,7 @@
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::body::NamedMesh;
 use crate::formats::channels::Channels;
+use crate::formats::narrow::{count, index};
 use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
 use crate::mesh::polygon::triangulate;
 use crate::mesh::{TriMesh, Uvs};
@@ -18,7 +19,7 @@ const MAX_HEADER_BYTES: usize = 1 << 20;
 
 /// # Errors
 /// Headers that lie or name unknown types, rows that end early, coordinates that are not finite, indices out of range.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagnostic> {
     let header = Header::read(file, bytes)?;
     let mut body = Body {
         file,
@@ -105,7 +106,7 @@ impl NumberType {
     /// The value of bytes in little-endian order; integers are exact in f64.
     fn value(self, b: [u8; 8]) -> f64 {
         match self {
-            Self::I8 => f64::from(b[0] as i8),
+            Self::I8 => f64::from(i8::from_le_bytes([b[0]])),
             Self::U8 => f64::from(b[0]),
             Self::I16 => f64::from(i16::from_le_bytes([b[0], b[1]])),
             Self::U16 => f64::from(u16::from_le_bytes([b[0], b[1]])),
@@ -383,8 +384,9 @@ impl Body<'_> {
     ) -> Result<usize, Diagnostic> {
         let start = self.at;
         let count = self.scalar(length, element, row)?;
+        let no_length = || self.fail((start, row, element), format!("a list of length {count}"));
         if count < 0.0 || count.fract() != 0.0 {
-            return Err(self.fail((start, row, element), format!("a list of length {count}")));
+            return Err(no_length());
         }
         // Every item takes at least a blank and a digit in text.
         let smallest = if self.encoding == Encoding::Text {
@@ -397,7 +399,7 @@ impl Body<'_> {
             let why = format!("a list of {count} items, but the file ends {left} bytes later");
             return Err(self.fail((start, row, element), why));
         }
-        Ok(count as usize)
+        index(count).map(|n| n as usize).ok_or_else(no_length)
     }
 
     fn scalar(
@@ -487,14 +489,14 @@ impl Builder {
             let corner = self.index(*value)?;
             self.corners.push(corner);
         }
-        self.arities.push(list.len() as u32);
+        self.arities.push(count(list.len()));
         Ok(())
     }
 
     fn corner_uvs(&mut self, list: &[f64]) {
         let pairs = list.chunks_exact(2);
         self.uv_counts.push(if list.len().is_multiple_of(2) {
-            pairs.len() as u32
+            count(pairs.len())
         } else {
             u32::MAX
         });
@@ -523,11 +525,7 @@ impl Builder {
                 "a vertex index {value}, but there are {count} vertices (counted from 0)"
             ));
         }
-        if value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0 {
-            Ok(value as u32)
-        } else {
-            Err(format!("a vertex index {value}"))
-        }
+        index(value).ok_or_else(|| format!("a vertex index {value}"))
     }
 
     fn finish(self, file: &str) -> Result<(NamedMesh, Vec<Diagnostic>), Diagnostic> {

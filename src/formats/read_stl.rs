@@ -15,7 +15,7 @@ const FACET: usize = 50;
 
 /// # Errors
 /// A count that does not fit the length, a coordinate that is no finite number, or what breaks the text form.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnostic> {
     let promised = bytes.get(80..HEADER).map(|b| {
         u64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])) * FACET as u64 + HEADER as u64
     });
@@ -97,11 +97,11 @@ impl Soup {
             let place = Place::File(file.to_owned());
             return Err(Diagnostic::error("the file has no triangles").at(place));
         }
-        if self.vertices.len() > u32::MAX as usize {
+        let Ok(corners) = u32::try_from(self.vertices.len()) else {
             let place = Place::File(file.to_owned());
             return Err(Diagnostic::error("the file has more than 1431655765 triangles").at(place));
-        }
-        let faces = (0..self.vertices.len() as u32 / 3)
+        };
+        let faces = (0..corners / 3)
             .map(|f| [3 * f, 3 * f + 1, 3 * f + 2])
             .collect();
         Ok(TriMesh {
@@ -128,7 +128,7 @@ fn read_text(file: &str, bytes: &[u8]) -> Result<TriMesh, Diagnostic> {
     for (number, line) in lines(without_bom(bytes)) {
         last = number;
         let words: Vec<&[u8]> = line
-            .split(|b| b.is_ascii_whitespace())
+            .split(u8::is_ascii_whitespace)
             .filter(|w| !w.is_empty())
             .take(6)
             .collect();

@@ -1,6 +1,7 @@
 //! Optimised surfaces as PLY (binary, with everything that is known of their vertices) and as OBJ (geometry, texture points and
 //! colours). Not for printing: such a surface may be open, torn or cross itself.
 
+use crate::formats::narrow::{byte, single};
 use crate::mesh::{NO_UV, Uvs, VertexScalar};
 use crate::surface::Surface;
 use glam::DVec2;
@@ -63,7 +64,7 @@ fn push_vertices(bytes: &mut Vec<u8>, surface: &Surface, channels: usize, uvs: O
         bytes.extend_from_slice(&reach.group.to_le_bytes());
         bytes.extend_from_slice(&surface.input_vertex[v].to_le_bytes());
         if let Some(colour) = attributes.colours.get(v) {
-            bytes.extend(colour[..channels].iter().map(|c| (c * 255.0).round() as u8));
+            bytes.extend(colour[..channels].iter().map(|c| byte(*c)));
         }
         if let Some(points) = uvs {
             push_point(bytes, points[v]);
@@ -93,7 +94,7 @@ fn push_faces(bytes: &mut Vec<u8>, faces: &[[u32; 3]], uvs: Option<&Uvs>) {
 /// A texture point in 32 bits.
 fn push_point(bytes: &mut Vec<u8>, point: DVec2) {
     for c in point.to_array() {
-        bytes.extend_from_slice(&(c as f32).to_le_bytes());
+        bytes.extend_from_slice(&single(c).to_le_bytes());
     }
 }
 

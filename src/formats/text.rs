@@ -6,10 +6,10 @@ use crate::diag::{Diagnostic, Place};
 const MAX_EXCERPT: usize = 80;
 
 /// Coordinates beyond this many millimetres (a thousand million kilometres) are nobody's model.
-pub const LARGEST_COORDINATE: f64 = 1e15;
+pub(super) const LARGEST_COORDINATE: f64 = 1e15;
 
 /// Lines of a text file with their numbers, 1-based. Ends a line at `\n`, `\r\n` or a lone `\r`.
-pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut rest = bytes;
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -29,12 +29,12 @@ pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 }
 
 /// The text without a byte order mark.
-pub fn without_bom(bytes: &[u8]) -> &[u8] {
+pub(super) fn without_bom(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
 /// Shortened, one line, printable characters only.
-pub fn excerpt(bytes: &[u8]) -> String {
+pub(super) fn excerpt(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * MAX_EXCERPT)]);
     let mut shown: String = text
         .trim()
@@ -49,7 +49,12 @@ pub fn excerpt(bytes: &[u8]) -> String {
 }
 
 /// An error at a line of a text file.
-pub fn at_line(file: &str, line: usize, text: &[u8], message: impl Into<String>) -> Diagnostic {
+pub(super) fn at_line(
+    file: &str,
+    line: usize,
+    text: &[u8],
+    message: impl Into<String>,
+) -> Diagnostic {
     Diagnostic::error(message).at(Place::Line {
         file: file.to_owned(),
         line,
@@ -58,7 +63,7 @@ pub fn at_line(file: &str, line: usize, text: &[u8], message: impl Into<String>)
 }
 
 /// An error at a byte of a binary file.
-pub fn at_byte(file: &str, offset: usize, message: impl Into<String>) -> Diagnostic {
+pub(super) fn at_byte(file: &str, offset: usize, message: impl Into<String>) -> Diagnostic {
     Diagnostic::error(message).at(Place::Byte {
         file: file.to_owned(),
         offset: offset as u64,
@@ -69,7 +74,7 @@ pub fn at_byte(file: &str, offset: usize, message: impl Into<String>) -> Diagnos
 ///
 /// # Errors
 /// What is wrong with it, in the words of a message that goes on after "a coordinate that is".
-pub fn coordinate(word: &[u8]) -> Result<f64, String> {
+pub(super) fn coordinate(word: &[u8]) -> Result<f64, String> {
     finite(word).and_then(check_coordinate)
 }
 
@@ -77,7 +82,7 @@ pub fn coordinate(word: &[u8]) -> Result<f64, String> {
 ///
 /// # Errors
 /// As [`coordinate`].
-pub fn finite(word: &[u8]) -> Result<f64, String> {
+pub(super) fn finite(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).ok().filter(|t| t.is_ascii());
     match text.and_then(|t| t.parse::<f64>().ok()) {
         Some(v) if v.is_finite() => Ok(v),
@@ -94,7 +99,7 @@ pub fn finite(word: &[u8]) -> Result<f64, String> {
 ///
 /// # Errors
 /// As [`coordinate`].
-pub fn check_coordinate(value: f64) -> Result<f64, String> {
+pub(super) fn check_coordinate(value: f64) -> Result<f64, String> {
     if !value.is_finite() {
         Err("not a finite number".to_owned())
     } else if value.abs() > LARGEST_COORDINATE {

@@ -43,6 +43,10 @@ pub struct ZipTime {
 
 impl ZipTime {
     /// From seconds since 1970, as in `SOURCE_DATE_EPOCH`; clamped to the years 1980 to 2107 that zip can tell.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "hours, minutes and seconds of a day"
+    )]
     pub fn from_unix(seconds: u64) -> Self {
         const FIRST: u64 = 315_532_800;
         const LAST: u64 = 4_354_819_199;
@@ -77,6 +81,10 @@ impl ZipTime {
 }
 
 /// Year, month and day of a day since 1970-01-01 (Hinnant, chrono-compatible low-level date algorithms).
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "of a day before the year 2108"
+)]
 fn civil_from_days(days: u64) -> (u16, u8, u8) {
     let z = days + 719_468;
     let (era, day_of_era) = (z / 146_097, z % 146_097);

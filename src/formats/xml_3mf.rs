@@ -11,7 +11,7 @@ use quick_xml::reader::Reader;
 
 /// One part.
 #[derive(Debug, Default)]
-pub struct ModelPart {
+pub(super) struct ModelPart {
     /// Millimetres per unit of its coordinates.
     pub unit_mm: f64,
     pub objects: Vec<XmlObject>,
@@ -19,7 +19,7 @@ pub struct ModelPart {
 }
 
 #[derive(Debug)]
-pub struct XmlObject {
+pub(super) struct XmlObject {
     pub id: u32,
     pub name: String,
     pub mesh: TriMesh,
@@ -28,7 +28,7 @@ pub struct XmlObject {
 
 /// An object put somewhere.
 #[derive(Clone, Debug)]
-pub struct Instance {
+pub(super) struct Instance {
     pub object: u32,
     /// The part it is in, if another one (production extension).
     pub part: Option<String>,
@@ -36,11 +36,11 @@ pub struct Instance {
 }
 
 /// Where in the part, bytes, and why.
-pub type XmlError = (u64, String);
+pub(super) type XmlError = (u64, String);
 
 /// # Errors
 /// Broken XML, a document type, numbers that are none, indices out of range.
-pub fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
     let mut reader = Reader::from_reader(bytes);
     let mut part = ModelPart {
         unit_mm: 1.0,

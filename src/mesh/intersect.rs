@@ -127,7 +127,7 @@ impl Flat {
     }
 
     /// Whether all of `other` lies strictly on one side of this face's plane.
-    fn has_on_one_side(&self, other: &Flat) -> bool {
+    fn has_on_one_side(&self, other: &Self) -> bool {
         let first = self.side(other.corners[0]);
         first != 0.0
             && same_sign(first, self.side(other.corners[1]))

@@ -10,7 +10,7 @@ pub fn numbered(mesh: &TriMesh) -> (TriMesh, Vec<u32>) {
     let place = |v: &DVec3| (*v + 0.0).to_array();
     let by_place = |a: &[f64; 3], b: &[f64; 3]| {
         let axes = (0..3).map(|k| a[k].total_cmp(&b[k]));
-        axes.fold(std::cmp::Ordering::Equal, |so_far, next| so_far.then(next))
+        axes.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
     };
     let mut sorted: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
     let places: Vec<[f64; 3]> = mesh.vertices.iter().map(place).collect();

@@ -122,7 +122,7 @@ pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<u32> {
     let mut sets = DisjointSets::new(3 * mesh.faces.len());
     let corner_at = |h: &HalfEdge, low: bool| {
         let start = h.forward == low;
-        3 * h.face + (h.corner as u32 + u32::from(!start)) % 3
+        3 * h.face + (u32::from(h.corner) + u32::from(!start)) % 3
     };
     for edge in edges.iter() {
         for pair in edge.windows(2) {

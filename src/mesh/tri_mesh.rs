@@ -74,7 +74,7 @@ impl TriMesh {
     }
 
     /// Adds the faces of `other` with vertices of their own.
-    pub fn append(&mut self, other: &TriMesh) {
+    pub fn append(&mut self, other: &Self) {
         let offset = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
         self.faces

@@ -6,7 +6,7 @@ use crate::view::View;
 use glam::DVec3;
 
 /// The picture's half width over the model's: a little air around it.
-pub const MARGIN: f64 = 1.05;
+pub(super) const MARGIN: f64 = 1.05;
 
 /// The camera of a view's pictures: towards the middle of its models, upright, square, with the tangent of half the
 /// field of view so that the models fill the picture but for 5 %.

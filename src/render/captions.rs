@@ -9,7 +9,7 @@ use crate::view::View;
 use glam::{DVec2, DVec3};
 
 /// Where captions go, in pixels of the picture; `unit` is a hundredth of a panel's side.
-pub struct CaptionPlace {
+pub(super) struct CaptionPlace {
     /// Left edges of the panels.
     pub columns: [f64; 3],
     /// Base line of the titles.
@@ -18,7 +18,7 @@ pub struct CaptionPlace {
 }
 
 /// Writes a title and a line under each panel, and the scale of errors beside the last title.
-pub fn captions(
+pub(super) fn captions(
     drawing: &mut Drawing,
     place: &CaptionPlace,
     view: &View,

@@ -19,7 +19,7 @@ pub const HEAT: [[u8; 3]; 5] = [
 ];
 
 /// The error scale's colour.
-pub fn heat(degrees: f64) -> Rgb {
+pub(super) fn heat(degrees: f64) -> Rgb {
     let x = (degrees / SCALE_END_DEG).clamp(0.0, 1.0) * (HEAT.len() - 1) as f64;
     let k = (x as usize).min(HEAT.len() - 2);
     let share = (x - k as f64) as f32;
@@ -29,7 +29,7 @@ pub fn heat(degrees: f64) -> Rgb {
 }
 
 /// The colours of the error scale with its ends in degrees.
-pub fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
+pub(super) fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
     const STEPS: usize = 60;
     let (length, height) = (34.0 * unit, 2.6 * unit);
     for k in 0..STEPS {

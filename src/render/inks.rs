@@ -2,5 +2,5 @@
 
 use crate::diagram::drawing::Ink;
 
-pub const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
-pub const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);
+pub(super) const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
+pub(super) const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);

@@ -35,7 +35,7 @@ pub struct LightLikeness {
 }
 
 /// All figures of a view, in the order of the sheet's columns.
-pub fn figures(pixels: &[[Option<Lit>; 2]]) -> Vec<LightLikeness> {
+pub(super) fn figures(pixels: &[[Option<Lit>; 2]]) -> Vec<LightLikeness> {
     let of_lamp = |lamp: usize| {
         let pairs: Vec<LampPixel> = pixels
             .iter()

@@ -30,7 +30,7 @@ const HEAD: usize = 26;
 const FOOT: usize = 64;
 
 /// A PNG. `pixels` are the stage's, by rows of [`SIDE`]; `figures` one for each column.
-pub fn sheet(
+pub(super) fn sheet(
     view: &View,
     stage: &Stage,
     pixels: &[[Option<Lit>; 2]],

@@ -16,7 +16,7 @@ pub struct Likeness {
 }
 
 /// Of the errors in degrees of all pixels whose ray meets the target, `hits` of which meet the forest too.
-pub fn likeness(errors: &[f64], hits: usize) -> Likeness {
+pub(super) fn likeness(errors: &[f64], hits: usize) -> Likeness {
     let mut sorted = errors.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     let n = sorted.len().max(1) as f64;

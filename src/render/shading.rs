@@ -5,23 +5,23 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// sRGB components, 0 to 255.
-pub type Rgb = [f32; 3];
+pub(super) type Rgb = [f32; 3];
 
 /// Colour of a surface without a colour of its own.
-pub const PLASTER: [u8; 3] = [0xEE, 0xEA, 0xE2];
-pub const BACKGROUND: Rgb = [255.0; 3];
+pub(super) const PLASTER: [u8; 3] = [0xEE, 0xEA, 0xE2];
+pub(super) const BACKGROUND: Rgb = [255.0; 3];
 
 /// Largest difference of a component between neighbouring pixels that is left as it is.
 /// Below 10 nearly every facet edge of a fine mesh is cast again; above 40 outlines look jagged.
 const JUMP: f32 = 20.0;
 
 /// Three lights of an eye: a strong one from the upper left, weaker ones from the upper right and from the eye.
-pub struct Lights {
+pub(super) struct Lights {
     lights: [(DVec3, f64); 3],
 }
 
 impl Lights {
-    pub fn of(plane: &ImagePlane) -> Self {
+    pub(super) fn of(plane: &ImagePlane) -> Self {
         let ImagePlane {
             forward: f,
             right: r,
@@ -36,7 +36,7 @@ impl Lights {
     }
 
     /// Lambertian shade of a facet.
-    pub fn shade(&self, normal: DVec3, colour: [u8; 3]) -> Rgb {
+    pub(super) fn shade(&self, normal: DVec3, colour: [u8; 3]) -> Rgb {
         let lit: f64 = self
             .lights
             .iter()
@@ -47,12 +47,12 @@ impl Lights {
 }
 
 /// A colour under a light of a strength of 0 to 1.
-pub fn scaled(colour: [u8; 3], light: f64) -> Rgb {
+pub(super) fn scaled(colour: [u8; 3], light: f64) -> Rgb {
     colour.map(|c| light.min(1.0) as f32 * f32::from(c))
 }
 
 /// A colour with a share, 0 to 1, of another one in it.
-pub fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
+pub(super) fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
     std::array::from_fn(|k| {
         (f64::from(colour[k]) * (1.0 - share) + f64::from(other[k]) * share).round() as u8
     })
@@ -60,7 +60,7 @@ pub fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
 
 /// Casts four rays through every pixel that differs from a neighbour, and takes their mean. `N` pictures at once;
 /// `cast` gives all of them at a place in pixels from the top left corner, `size` is their width.
-pub fn smoothed<const N: usize>(
+pub(super) fn smoothed<const N: usize>(
     centres: &[[Rgb; N]],
     size: usize,
     cast: impl Fn(f64, f64) -> [Rgb; N] + Sync,

@@ -21,7 +21,7 @@ const LEAST_WIDTH_PX: f64 = 1.1;
 
 /// A square panel of a picture, and the camera whose image fills it.
 #[derive(Clone, Copy)]
-pub struct Panel {
+pub(super) struct Panel {
     pub plane: ImagePlane,
     /// Tangent of half the field of view.
     pub half: f64,
@@ -44,7 +44,7 @@ impl Panel {
 }
 
 /// Draws the lines, the darker the higher they are beside the highest one.
-pub fn step_lines(drawing: &mut Drawing, lines: &[StepLine], panel: Panel) {
+pub(super) fn step_lines(drawing: &mut Drawing, lines: &[StepLine], panel: Panel) {
     let highest = lines.iter().map(height).fold(0.0, f64::max);
     let mut shades: [Vec<Step>; SHADES] = Default::default();
     for line in lines {
@@ -73,7 +73,7 @@ fn height(line: &StepLine) -> f64 {
 }
 
 /// What the caption says of the lines.
-pub fn caption(lines: &[StepLine], summary: &StepSummary) -> String {
+pub(super) fn caption(lines: &[StepLine], summary: &StepSummary) -> String {
     let highest = summary.highest_mm;
     match summary.lines {
         _ if lines.is_empty() => "no steps".into(),
