@@ -60,6 +60,8 @@ pub mod index;
 
 pub mod geom;
 
+pub mod horizon;
+
 pub mod mesh;
 
 pub mod bvh;
