@@ -18,8 +18,8 @@ pub use thumbnail::thumbnail;
 pub use turntable::turntable;
 
 use crate::bvh::Bvh;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
@@ -299,14 +299,14 @@ fn captions(
     let head = TextStyle {
         size: 4.6 * unit,
         ink: TEXT,
-        face: Face::Regular,
-        anchor: Anchor::Start,
+        face: Typeface::Regular,
+        anchor: Align::Start,
         halo: None,
     };
     let body = TextStyle {
         size: 3.4 * unit,
         ink: QUIET,
-        face: Face::Light,
+        face: Typeface::Light,
         ..head
     };
     // Below the scale's figures, which the last column's second line passes under.
@@ -395,8 +395,8 @@ fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
     let style = TextStyle {
         size: 2.8 * unit,
         ink: QUIET,
-        face: Face::Light,
-        anchor: Anchor::Middle,
+        face: Typeface::Light,
+        anchor: Align::Middle,
         halo: None,
     };
     for (share, text) in [
@@ -406,9 +406,9 @@ fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
         (1.0, "45° +"),
     ] {
         let anchor = match share {
-            0.0 => Anchor::Start,
-            1.0 => Anchor::End,
-            _ => Anchor::Middle,
+            0.0 => Align::Start,
+            1.0 => Align::End,
+            _ => Align::Middle,
         };
         let x = at.x + share * length;
         drawing.polyline(

@@ -110,7 +110,8 @@ pub fn run(
         progress: &|stage, share| progress(stage, PLANNING * share),
         stop,
     };
-    let plan = crate::planner::plan(&scene.views, &brief, watch)?;
+    let plan = crate::planner::plan(&scene.views, &brief, watch)
+        .map_err(|e| crate::words::planner::no_layout(&scene.views, &e))?;
     let rest = |stage: &str, share| progress(stage, PLANNING + (1.0 - PLANNING) * share);
     let mut build = forest(&laid_out(scene, &plan), goal, &rest)?;
     build.warnings.extend(cut_short(&brief, &plan));
