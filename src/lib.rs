@@ -13,6 +13,7 @@
 //! |---|---|---|
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
 //! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
+//! | an eye in plan and outlines of pillars | [`horizon::Horizon::new`] | [`horizon::Horizon`]: which is met first at every bearing; the planner, and plans that are drawn, see through it |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
 //! | a view's models | [`viewmap::Target::new`] | the target ready for rays, projected |
 //! | target and supports | [`viewmap::view_map`] | [`viewmap::ViewMap`]: which face and which support the eye sees, as cells of its image |
@@ -26,6 +27,7 @@
 //! | depths and relief | [`diagram::section::section`] | [`diagram::section::Section`]: groups cut open through the eye, their bounds, scales and pieces |
 //! | reliefs of all views | [`carve::carve`], [`carve::joined`] for whole meshes | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
+//! | views and what is wanted of a layout | [`planner::plan`], [`planner::repair`] | [`planner::Planned`], or [`planner::NoLayout`]: what binds |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |

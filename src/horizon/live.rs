@@ -1,6 +1,8 @@
 //! The horizon itself: built once, then kept true while obstacles come, go and move.
 
-use super::{Impact, Obstacle, Shadow, Viewpoint};
+use super::obstacle::{Impact, Obstacle};
+use super::shadow::Shadow;
+use super::viewpoint::Viewpoint;
 use std::f64::consts::TAU;
 
 /// A stretch of bearings over which the viewpoint meets the same obstacle first, or none.
@@ -28,12 +30,12 @@ pub struct Horizon {
     /// Index: obstacle; `None` of those that let all rays pass, or hold the viewpoint.
     shadows: Vec<Option<Shadow>>,
     /// Rising.
-    spans: Vec<Span>,
+    spans: Vec<Sweep>,
 }
 
-/// One span of bearings.
+/// One span of bearings, with all that is met there.
 #[derive(Clone, Debug, PartialEq)]
-struct Span {
+struct Sweep {
     ends: [f64; 2],
     /// Bearings strictly inside at which shadows begin or end, rising; as often as there are such shadows.
     tangents: Vec<f64>,
@@ -72,7 +74,7 @@ impl Horizon {
         self.shadows.clear();
         let shadow = |o: &Option<Obstacle>| o.as_ref().and_then(|o| shadow(&viewpoint, o));
         self.shadows.extend(obstacles.iter().map(shadow));
-        self.spans.resize_with(spans.len(), Span::empty);
+        self.spans.resize_with(spans.len(), Sweep::empty);
         for (span, ends) in self.spans.iter_mut().zip(spans) {
             span.begin(*ends);
             for shadow in self.shadows.iter().flatten() {
@@ -141,7 +143,7 @@ impl Horizon {
 
     /// Which obstacle a bearing meets first, and where. `None` where the view is free, and beside the spans.
     pub fn first(&self, bearing: f64, obstacles: &[Option<Obstacle>]) -> Option<(usize, Impact)> {
-        let within = |s: &&Span| s.ends[0] <= bearing && bearing <= s.ends[1];
+        let within = |s: &&Sweep| s.ends[0] <= bearing && bearing <= s.ends[1];
         let stretches = &self.spans.iter().find(within)?.stretches;
         let after = stretches.partition_point(|s| s.to < bearing);
         let index = stretches.get(after)?.obstacle?;
@@ -170,7 +172,7 @@ impl Horizon {
     }
 }
 
-impl Span {
+impl Sweep {
     fn empty() -> Self {
         Self {
             ends: [0.0, 0.0],

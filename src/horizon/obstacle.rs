@@ -1,6 +1,6 @@
 //! What stands in the way: footprints at places, and where rays enter them.
 
-use super::Ray;
+use super::viewpoint::Ray;
 use glam::DVec2;
 
 /// The outline of a body in plan, around its own origin, millimetres.

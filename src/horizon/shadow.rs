@@ -1,6 +1,7 @@
 //! The shadow of an obstacle: the bearings at which a viewpoint looks at it, with nothing else in the way.
 
-use super::{Footprint, Obstacle, Viewpoint, turn};
+use super::obstacle::{Footprint, Obstacle};
+use super::viewpoint::{Viewpoint, turn};
 use glam::DVec2;
 use std::f64::consts::PI;
 

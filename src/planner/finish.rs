@@ -30,7 +30,7 @@ const RAYS: Rays = Rays {
 };
 
 /// What a search came to.
-pub struct Outcome<'a> {
+pub struct Harvest<'a> {
     pub views: &'a [View],
     pub task: &'a Task<'a>,
     pub start: Start,
@@ -41,15 +41,15 @@ pub struct Outcome<'a> {
     pub aside: Vec<Annealed>,
 }
 
-pub fn finished(outcome: Outcome) -> Planned {
-    let Outcome {
+pub fn finished(harvest: Harvest) -> Planned {
+    let Harvest {
         views,
         task,
         start,
         layout,
         chains,
         aside,
-    } = outcome;
+    } = harvest;
     let layout = in_order(task, layout);
     let subjects = task.subjects(&layout.poses);
     let first = task.layout(start.pillars, vec![0; views.len()]);

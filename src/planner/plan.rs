@@ -1,7 +1,7 @@
 //! From views and a brief to a plan: a layout without faults first, the best one near it then.
 
 use super::brief::Brief;
-use super::finish::{Outcome, finished};
+use super::finish::{Harvest, finished};
 use super::limits::{NoLayout, binding};
 use super::planned::Planned;
 use super::posing::prepared;
@@ -52,7 +52,7 @@ pub fn plan(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, NoLa
         chains.push(main);
         others = aside(&task, [&first, &layout], left - tries, watch);
     }
-    Ok(finished(Outcome {
+    Ok(finished(Harvest {
         views,
         task: &task,
         start: begun,

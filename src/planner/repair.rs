@@ -4,7 +4,7 @@
 //! moves only as far as it must.
 
 use super::brief::{Brief, Pillar, rounded};
-use super::finish::{Outcome, finished};
+use super::finish::{Harvest, finished};
 use super::limits::{NoLayout, binding};
 use super::planned::Planned;
 use super::posing::prepared;
@@ -48,7 +48,7 @@ pub fn repair(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, No
         }
         (pruned(&task, chain.best.clone()), vec![chain])
     };
-    let outcome = Outcome {
+    let harvest = Harvest {
         views,
         task: &task,
         start: begun,
@@ -56,7 +56,7 @@ pub fn repair(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, No
         chains,
         aside: Vec::new(),
     };
-    Ok(finished(outcome))
+    Ok(finished(harvest))
 }
 
 /// Takes back every change that can be taken back, the shortest ways first, and then shortens what is left.

@@ -7,14 +7,14 @@ use std::f64::consts::{PI, TAU};
 
 /// A body of the tests, with its own outline.
 #[derive(Clone, Debug)]
-struct Body {
+struct Prism {
     at: DVec2,
     /// Radius of the disc, or of the circle around the polygon.
     radius: f64,
     corners: Vec<DVec2>,
 }
 
-impl Body {
+impl Prism {
     fn new(at: DVec2, radius: f64, sides: usize) -> Self {
         let corner = |k: usize| radius * DVec2::from_angle(0.3 + TAU * k as f64 / sides as f64);
         let corners = if sides < 3 {
@@ -47,10 +47,10 @@ impl Body {
     }
 }
 
-fn obstacles(bodies: &[Option<Body>]) -> Vec<Option<Obstacle<'_>>> {
+fn obstacles(bodies: &[Option<Prism>]) -> Vec<Option<Obstacle<'_>>> {
     bodies
         .iter()
-        .map(|b| b.as_ref().map(Body::obstacle))
+        .map(|b| b.as_ref().map(Prism::obstacle))
         .collect()
 }
 
@@ -64,7 +64,7 @@ fn eye() -> Viewpoint {
 const SPANS: [[f64; 2]; 3] = [[-0.5, -0.2], [-0.15, 0.2], [0.25, 0.26]];
 
 /// Distance at which a ray first meets a body, another way than the engine's: as roots and as crossings of lines.
-fn distance(body: &Body, ray: &Ray) -> Option<f64> {
+fn distance(body: &Prism, ray: &Ray) -> Option<f64> {
     let to = body.at - ray.from;
     if body.corners.is_empty() {
         let (b, c) = (
@@ -85,7 +85,7 @@ fn distance(body: &Body, ray: &Ray) -> Option<f64> {
 }
 
 /// The body that a bearing meets first, looked for among all.
-fn first(bodies: &[Option<Body>], ray: &Ray) -> Option<(usize, f64)> {
+fn first(bodies: &[Option<Prism>], ray: &Ray) -> Option<(usize, f64)> {
     let met = bodies
         .iter()
         .enumerate()
@@ -94,7 +94,7 @@ fn first(bodies: &[Option<Body>], ray: &Ray) -> Option<(usize, f64)> {
 }
 
 /// Whether a bearing lies so near to some tangent that rounding decides.
-fn is_near_tangent(bodies: &[Option<Body>], viewpoint: &Viewpoint, bearing: f64) -> bool {
+fn is_near_tangent(bodies: &[Option<Prism>], viewpoint: &Viewpoint, bearing: f64) -> bool {
     bodies.iter().flatten().any(|b| {
         let shadow = Shadow::new(viewpoint, &b.obstacle());
         let ends = [shadow.from, shadow.to];
@@ -107,7 +107,7 @@ fn is_near_tangent(bodies: &[Option<Body>], viewpoint: &Viewpoint, bearing: f64)
 fn agrees_with_rays(
     viewpoint: Viewpoint,
     spans: &[[f64; 2]],
-    bodies: &[Option<Body>],
+    bodies: &[Option<Prism>],
 ) -> Result<(), TestCaseError> {
     let list = obstacles(bodies);
     let horizon = Horizon::new(viewpoint, spans, &list);
@@ -147,13 +147,13 @@ fn agrees_with_rays(
 }
 
 /// Bodies one to a cell of a grid around the origin: none touch. `None` where the last number says so.
-fn apart() -> impl Strategy<Value = Vec<Option<Body>>> {
+fn apart() -> impl Strategy<Value = Vec<Option<Prism>>> {
     let one = (0.0..1.0f64, 0.0..1.0f64, 1.0..5.0f64, 2..9usize, 0..8u8);
     prop::collection::vec(one, 36).prop_map(|list| {
         let body = |(k, (u, v, radius, sides, gone)): (usize, (f64, f64, f64, usize, u8))| {
             let cell = DVec2::new((k % 6) as f64, (k / 6) as f64) * 16.0 - 40.0;
             let at = cell + DVec2::new(u, v) * (16.0 - 2.0 * 5.1) - 2.9;
-            (gone > 0).then(|| Body::new(at, radius, sides))
+            (gone > 0).then(|| Prism::new(at, radius, sides))
         };
         list.into_iter().enumerate().map(body).collect()
     })
@@ -161,19 +161,19 @@ fn apart() -> impl Strategy<Value = Vec<Option<Body>>> {
 
 /// A change of a layout: which, and what becomes of it.
 #[derive(Clone, Debug)]
-enum Change {
-    Put(usize, Option<Body>),
-    Push(Body),
+enum Edit {
+    Put(usize, Option<Prism>),
+    Push(Prism),
     /// The last takes its place.
     SwapRemove(usize),
     Look(Viewpoint),
 }
 
-fn bodies_anywhere() -> impl Strategy<Value = Body> {
+fn bodies_anywhere() -> impl Strategy<Value = Prism> {
     // On a coarse grid too, so that tangents coincide.
     let place = prop_oneof![-60.0..60.0f64, (-6..6i32).prop_map(|k| 10.0 * f64::from(k))];
     let at = (place.clone(), place);
-    (at, 1.0..9.0f64, 2..7usize).prop_map(|((x, y), r, n)| Body::new(DVec2::new(x, y), r, n))
+    (at, 1.0..9.0f64, 2..7usize).prop_map(|((x, y), r, n)| Prism::new(DVec2::new(x, y), r, n))
 }
 
 fn viewpoints() -> impl Strategy<Value = Viewpoint> {
@@ -187,13 +187,13 @@ fn viewpoints() -> impl Strategy<Value = Viewpoint> {
     })
 }
 
-fn changes() -> impl Strategy<Value = Vec<Change>> {
+fn changes() -> impl Strategy<Value = Vec<Edit>> {
     let change = prop_oneof![
         6 => (0..40usize, prop::option::weighted(0.8, bodies_anywhere()))
-            .prop_map(|(k, b)| Change::Put(k, b)),
-        2 => bodies_anywhere().prop_map(Change::Push),
-        2 => (0..40usize).prop_map(Change::SwapRemove),
-        1 => viewpoints().prop_map(Change::Look),
+            .prop_map(|(k, b)| Edit::Put(k, b)),
+        2 => bodies_anywhere().prop_map(Edit::Push),
+        2 => (0..40usize).prop_map(Edit::SwapRemove),
+        1 => viewpoints().prop_map(Edit::Look),
     ];
     prop::collection::vec(change, 1..12)
 }
@@ -212,8 +212,8 @@ proptest! {
     #[test]
     fn all_around_too(bodies in apart(), x in -50.0..50.0f64, y in -50.0..50.0f64) {
         let place = DVec2::new(x, y);
-        let inside = |b: &Body| b.at.distance(place) < b.radius + 1e-3;
-        let bodies: Vec<Option<Body>> = bodies.into_iter().map(|b| b.filter(|b| !inside(b))).collect();
+        let inside = |b: &Prism| b.at.distance(place) < b.radius + 1e-3;
+        let bodies: Vec<Option<Prism>> = bodies.into_iter().map(|b| b.filter(|b| !inside(b))).collect();
         agrees_with_rays(Viewpoint::At { place, ahead: DVec2::Y }, &[[-PI, 0.5], [0.5, PI]], &bodies)?;
     }
 
@@ -230,23 +230,23 @@ proptest! {
             let mut told = Vec::new();
             for change in some {
                 match change.clone() {
-                    Change::Put(k, body) if k < bodies.len() => {
+                    Edit::Put(k, body) if k < bodies.len() => {
                         bodies[k] = body;
                         told.push(k);
                     }
-                    Change::Push(body) => {
+                    Edit::Push(body) => {
                         told.push(bodies.len());
                         bodies.push(Some(body));
                     }
-                    Change::SwapRemove(k) if k < bodies.len() => {
+                    Edit::SwapRemove(k) if k < bodies.len() => {
                         bodies.swap_remove(k);
                         told.extend([k, bodies.len()]);
                     }
-                    Change::Look(from) => {
+                    Edit::Look(from) => {
                         viewpoint = from;
                         live.look_from(viewpoint, &spans(&viewpoint), &obstacles(&bodies));
                     }
-                    Change::Put(..) | Change::SwapRemove(_) => {}
+                    Edit::Put(..) | Edit::SwapRemove(_) => {}
                 }
             }
             for k in told.into_iter().rev() {
@@ -297,8 +297,8 @@ proptest! {
 
 #[test]
 fn a_viewpoint_inside_an_obstacle_looks_through_it() {
-    let holds = |body: Body| {
-        let (own, behind) = (Some(body), Some(Body::new(DVec2::new(30.0, 0.0), 4.0, 2)));
+    let holds = |body: Prism| {
+        let (own, behind) = (Some(body), Some(Prism::new(DVec2::new(30.0, 0.0), 4.0, 2)));
         let bodies = [own, behind];
         let viewpoint = Viewpoint::At {
             place: DVec2::new(1.0, 0.0),
@@ -308,15 +308,15 @@ fn a_viewpoint_inside_an_obstacle_looks_through_it() {
         let runs: Vec<Run> = horizon.runs().collect();
         assert_eq!((runs.len(), runs[0].obstacle), (1, Some(1)));
     };
-    holds(Body::new(DVec2::ZERO, 5.0, 2));
-    holds(Body::new(DVec2::ZERO, 5.0, 6));
-    holds(Body::new(DVec2::new(1.0, 0.0), 5.0, 6));
+    holds(Prism::new(DVec2::ZERO, 5.0, 2));
+    holds(Prism::new(DVec2::ZERO, 5.0, 6));
+    holds(Prism::new(DVec2::new(1.0, 0.0), 5.0, 6));
 }
 
 #[test]
 fn overlaps_are_settled_in_the_middle_of_their_stretch() {
     // Two squares that cross: the front of one, then of the other; the stretch over which both lie is one run.
-    let square = |x: f64, y: f64| Some(Body::new(DVec2::new(x, y), 10.0, 4));
+    let square = |x: f64, y: f64| Some(Prism::new(DVec2::new(x, y), 10.0, 4));
     let bodies = [square(0.0, 4.0), square(3.0, -4.0)];
     let viewpoint = eye();
     let horizon = Horizon::new(viewpoint, &[[-0.4, 0.4]], &obstacles(&bodies));
@@ -342,8 +342,8 @@ fn moves_are_quick() {
             DVec2::new(9.0, 14.0) * at + 3.0 * DVec2::from_angle(2.4 * k as f64)
                 - DVec2::new(90.0, 70.0)
         };
-        let bodies: Vec<Option<Body>> = (0..n)
-            .map(|k| Some(Body::new(place(k * 200 / n), 3.0, 2)))
+        let bodies: Vec<Option<Prism>> = (0..n)
+            .map(|k| Some(Prism::new(place(k * 200 / n), 3.0, 2)))
             .collect();
         let list = obstacles(&bodies);
         let spans = [[-0.6, 0.6]];

@@ -225,6 +225,49 @@ fn what_eyes_meet_agrees_with_rays() {
 }
 
 #[test]
+fn a_survey_that_follows_changes_is_the_one_made_anew() {
+    let mut rng = Pcg64Mcg::seed_from_u64(23);
+    let views = uneven(&mut rng, 3, 60.0);
+    let all = subjects(&views);
+    let all: Vec<&Subject> = all.iter().collect();
+    let mut square = round(4.0);
+    square.profile = shapes::ring(DVec2::ZERO, 4.0, 4);
+    square.round = false;
+    let brief = Brief {
+        shapes: vec![round(4.0), square],
+        allowed: 2,
+        ..brief(3, disc(75.0), 0)
+    };
+    let random = |rng: &mut Pcg64Mcg| Pillar {
+        at: DVec2::new(rng.random_range(-70.0..70.0), rng.random_range(-70.0..70.0)),
+        shape: rng.random_range(0..2),
+        owner: Some(rng.random_range(0..3)),
+        fixed: false,
+        given: None,
+    };
+    let mut pillars: Vec<Pillar> = (0..30).map(|_| random(&mut rng)).collect();
+    let mut survey = Survey::new(&all, &brief, &pillars);
+    for _ in 0..60 {
+        let old = pillars.clone();
+        for _ in 0..rng.random_range(1..4) {
+            let i = rng.random_range(0..pillars.len());
+            match rng.random_range(0..4) {
+                0 => pillars.push(random(&mut rng)),
+                1 => _ = pillars.swap_remove(i),
+                2 => pillars[i].at += DVec2::new(rng.random_range(-1.0..1.0), 0.3),
+                _ => pillars[i] = random(&mut rng),
+            }
+        }
+        let most = old.len().max(pillars.len());
+        let changed: Vec<usize> = (0..most)
+            .filter(|i| old.get(*i) != pillars.get(*i))
+            .collect();
+        survey = survey.after(&all, &brief, &pillars, &changed);
+        assert_eq!(survey, Survey::new(&all, &brief, &pillars));
+    }
+}
+
+#[test]
 fn a_plan_is_sound_better_than_its_start_and_the_same_again() {
     let mut rng = Pcg64Mcg::seed_from_u64(3);
     let views = uneven(&mut rng, 3, 40.0);
