@@ -14,6 +14,7 @@
 //! | a model's file | [`intake::load_original`] | [`intake::Admitted`]: a mesh fit to be looked at, and what its file says besides |
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
 //! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
+//! | an eye in plan and outlines of pillars | [`horizon::Horizon::new`] | [`horizon::Horizon`]: which is met first at every bearing; the planner, and plans that are drawn, see through it |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |
 //! | a view, supports | [`viewmap::Image::new`] | its models projected, and the map of what it sees: which face and which support, as cells of its image |
 //! | image | [`groups::groups`] | [`groups::Groups`]: depth groups and bounds |
@@ -28,6 +29,7 @@
 //! | sight | [`kinds::ReliefKind::optimised`] | [`kinds::Optimised`]: the last four in the way of its kind of relief, and their certificate |
 //! | what all views put on supports | [`carve::carve`] | [`carve::Forest`]: checked solids |
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
+//! | views and what is wanted of a layout | [`planner::plan`], [`planner::repair`] | [`planner::Planned`], or [`planner::NoLayout`]: what binds |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
 //! | what stages found | [`words`] | [`diag::Diagnostic`]s for people |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
@@ -102,6 +104,8 @@ pub mod index;
 pub mod ladder;
 
 pub mod geom;
+
+pub mod horizon;
 
 pub mod mesh;
 

@@ -3,8 +3,8 @@
 use crate::rows::Rows;
 use crate::{Compared, SUBJECTS, SURFACES, THICKNESSES};
 use glam::DVec2;
-use pillarforest::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use pillarforest::diagram::lettering::Face;
+use pillarforest::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use pillarforest::diagram::lettering::Typeface;
 
 /// Width of the picture in pixels, which are the drawing's unit.
 pub const WIDTH: u32 = 1400;
@@ -28,11 +28,11 @@ const LETTERS: f64 = 22.0;
 const LEADING: f64 = 27.0;
 
 /// A text of the plot's size and regular face.
-fn style(ink: Ink, anchor: Anchor) -> TextStyle {
+fn style(ink: Ink, anchor: Align) -> TextStyle {
     TextStyle {
         size: LETTERS,
         ink,
-        face: Face::Regular,
+        face: Typeface::Regular,
         anchor,
         halo: None,
     }
@@ -91,7 +91,7 @@ pub fn plot(rows: &Rows) -> Drawing {
     let errors = ErrorAxis::around(rows);
     let heading = TextStyle {
         size: 26.0,
-        ..style(TEXT, Anchor::Start)
+        ..style(TEXT, Align::Start)
     };
     drawing.text(
         DVec2::new(30.0, 40.0),
@@ -119,8 +119,8 @@ pub fn plot(rows: &Rows) -> Drawing {
 /// Lines across with their errors, thicknesses below.
 fn axes(drawing: &mut Drawing, errors: &ErrorAxis, left: f64, title: &str) {
     let bold = TextStyle {
-        face: Face::Bold,
-        ..style(TEXT, Anchor::Start)
+        face: Typeface::Bold,
+        ..style(TEXT, Align::Start)
     };
     drawing.text(DVec2::new(left, TOP - 28.0), title, bold);
     for tick in TICKS
@@ -134,17 +134,17 @@ fn axes(drawing: &mut Drawing, errors: &ErrorAxis, left: f64, title: &str) {
         ];
         drawing.polyline(&ends, Pen::new(HAIR, 1.5));
         let at = DVec2::new(left - 18.0, y + 0.33 * LETTERS);
-        drawing.text(at, &format!("{tick}°"), style(QUIET, Anchor::End));
+        drawing.text(at, &format!("{tick}°"), style(QUIET, Align::End));
     }
     for mm in THICKNESSES {
         let at = DVec2::new(left + x(mm), BOTTOM + 36.0);
-        drawing.text(at, &mm.to_string(), style(QUIET, Anchor::Middle));
+        drawing.text(at, &mm.to_string(), style(QUIET, Align::Middle));
     }
     let at = DVec2::new(left + LENGTH / 2.0, BOTTOM + 74.0);
     drawing.text(
         at,
         "thickness of the layer, mm",
-        style(QUIET, Anchor::Middle),
+        style(QUIET, Align::Middle),
     );
 }
 
@@ -163,8 +163,8 @@ fn labels(drawing: &mut Drawing, errors: &ErrorAxis, left: f64, lines: &[Vec<(f6
     for (y, surface) in ends {
         let at = DVec2::new(left + LENGTH + 20.0, y + 0.33 * LETTERS);
         let bold = TextStyle {
-            face: Face::Bold,
-            ..style(Ink::new(surface.colour), Anchor::Start)
+            face: Typeface::Bold,
+            ..style(Ink::new(surface.colour), Align::Start)
         };
         drawing.text(at, surface.name, bold);
     }

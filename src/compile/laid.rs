@@ -6,6 +6,7 @@ use super::progress::{Progress, Stop};
 use crate::diag::Diagnostic;
 use crate::planner::{self, Brief, Planned, Watch};
 use crate::scene::{Scene, laid_out};
+use crate::words;
 use std::borrow::Cow;
 
 /// Share of a run that finding its pillars takes.
@@ -65,7 +66,8 @@ fn laid_after<'a>(
         progress: &|stage, share| progress(stage, PLANNING * share),
         stop,
     };
-    let plan = planner::plan(&given.views, &brief, watch)?;
+    let plan = planner::plan(&given.views, &brief, watch)
+        .map_err(|e| words::planner::no_layout(&given.views, &e))?;
     Ok(LaidScene {
         given,
         scene: Cow::Owned(laid_out(given, &plan)),

@@ -4,8 +4,9 @@ use super::output::OutputFile;
 use crate::diag::Diagnostic;
 use crate::diagram::Plan;
 use crate::diagram::planning::{animation, sheet, strip, trade};
-use crate::planner::{self, Brief, Ended, Planned, Watch, Worth};
+use crate::planner::{self, Brief, Ended, Frame, Planned, Watch, Worth};
 use crate::scene::{Scene, laid_out, layout_text};
+use crate::words;
 
 /// Name of the layout file among the outputs.
 pub const LAYOUT: &str = "layout.ron";
@@ -28,7 +29,8 @@ pub fn planned(scene: &Scene, watch: Watch) -> Result<(Scene, Planned), Vec<Diag
                 .help("`pillarforest repair` mends a list with the fewest moves"),
         ]);
     };
-    let plan = planner::plan(&scene.views, brief, watch)?;
+    let plan = planner::plan(&scene.views, brief, watch)
+        .map_err(|e| words::planner::no_layout(&scene.views, &e))?;
     Ok((laid_out(scene, &plan), plan))
 }
 
@@ -44,7 +46,8 @@ pub fn repaired(scene: &Scene, watch: Watch) -> Result<(Scene, Planned), Vec<Dia
                 .help("`pillarforest plan` finds them and writes the list"),
         ]);
     };
-    let plan = planner::repair(&scene.views, brief, watch)?;
+    let plan = planner::repair(&scene.views, brief, watch)
+        .map_err(|e| words::planner::no_layout(&scene.views, &e))?;
     Ok((laid_out(scene, &plan), plan))
 }
 
@@ -54,15 +57,20 @@ pub fn plan_outputs(scene: &Scene, plan: &Planned) -> Vec<OutputFile> {
     // A scene as read has the brief of its plan.
     if let Some(brief) = &scene.brief {
         let (title, views) = (&scene.title, &scene.views);
-        files.extend(picture("plan", &sheet(title, views, brief, plan), SHEET_PX));
+        let (found, tell) = ((brief, plan), |f: &Frame| words::planner::marks(views, f));
+        files.extend(picture(
+            "plan",
+            &sheet(title, views, found, &tell),
+            SHEET_PX,
+        ));
         files.extend(picture("tradeoff", &trade(title, brief, plan), TRADE_PX));
         files.push(OutputFile::new(
             "search.svg",
-            animation(title, views, brief, plan).into_bytes(),
+            animation(title, views, found, &tell).into_bytes(),
         ));
         files.push(OutputFile::new(
             "search.png",
-            strip(title, views, brief, plan).png(STRIP_PX),
+            strip(title, views, found, &tell).png(STRIP_PX),
         ));
     }
     files

@@ -1,7 +1,7 @@
 //! A line chart: one axis of positive numbers across, logarithmic, and values from zero upwards.
 
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT};
 use glam::DVec2;
 
@@ -38,9 +38,9 @@ const TICKS: f64 = 6.0;
 pub fn chart(chart: &Chart) -> Drawing {
     let mut drawing = Drawing::new(PAGE);
     drawing.rect(DVec2::ZERO, PAGE, Some(PAPER), None);
-    let head = TextStyle::new(4.6, Face::Regular, TEXT, Anchor::Start);
+    let head = TextStyle::new(4.6, Typeface::Regular, TEXT, Align::Start);
     drawing.text(DVec2::new(8.0, 10.0), &chart.title, head);
-    let scale = Scale::of(chart);
+    let scale = Grid::of(chart);
     scale.draw(&mut drawing, &chart.across);
     for line in &chart.lines {
         let ink = Ink::new(line.colour);
@@ -55,7 +55,7 @@ pub fn chart(chart: &Chart) -> Drawing {
     drawing
 }
 
-struct Scale {
+struct Grid {
     /// Numbers across that occur, rising.
     numbers: Vec<f64>,
     /// Distance of the lines across, and how many there are.
@@ -63,7 +63,7 @@ struct Scale {
     ticks: usize,
 }
 
-impl Scale {
+impl Grid {
     fn of(chart: &Chart) -> Self {
         let points = || chart.lines.iter().flat_map(|l| &l.points);
         let mut numbers: Vec<f64> = points().map(|p| p.0).collect();
@@ -104,7 +104,7 @@ impl Scale {
     }
 
     fn draw(&self, drawing: &mut Drawing, across: &str) {
-        let style = |anchor| TextStyle::new(LETTERS, Face::Regular, QUIET, anchor);
+        let style = |anchor| TextStyle::new(LETTERS, Typeface::Regular, QUIET, anchor);
         for k in 0..=self.ticks {
             // Rounded: sums of a tenth are not tenths.
             let value = (self.tick * k as f64 * 1e6).round() / 1e6;
@@ -115,19 +115,19 @@ impl Scale {
             ];
             drawing.polyline(&ends, Pen::new(HAIR, 0.2));
             let at = DVec2::new(AXES[0].x - 3.5, y + 0.33 * LETTERS);
-            drawing.text(at, &value.to_string(), style(Anchor::End));
+            drawing.text(at, &value.to_string(), style(Align::End));
         }
         for number in &self.numbers {
             let at = DVec2::new(self.x(*number), AXES[1].y + 6.0);
-            drawing.text(at, &number.to_string(), style(Anchor::Middle));
+            drawing.text(at, &number.to_string(), style(Align::Middle));
         }
         let at = DVec2::new((AXES[0].x + AXES[1].x) / 2.0, AXES[1].y + 12.0);
-        drawing.text(at, across, style(Anchor::Middle));
+        drawing.text(at, across, style(Align::Middle));
     }
 }
 
 /// Names of the lines beside their right ends, moved apart where they would touch.
-fn names(drawing: &mut Drawing, scale: &Scale, lines: &[Line]) {
+fn names(drawing: &mut Drawing, scale: &Grid, lines: &[Line]) {
     let right = |line: &Line| {
         let ends = line.points.iter().copied();
         ends.max_by(|a, b| a.0.total_cmp(&b.0))
@@ -140,7 +140,7 @@ fn names(drawing: &mut Drawing, scale: &Scale, lines: &[Line]) {
         ends[k - 1].0 = ends[k - 1].0.min(ends[k].0 - LEADING);
     }
     for (y, line) in ends {
-        let style = TextStyle::new(LETTERS, Face::Bold, Ink::new(line.colour), Anchor::Start);
+        let style = TextStyle::new(LETTERS, Typeface::Bold, Ink::new(line.colour), Align::Start);
         let style = style.fitting(&line.name, PAGE.x - AXES[1].x - 8.0);
         let at = DVec2::new(AXES[1].x + 5.0, y + 0.33 * LETTERS);
         drawing.text(at, &line.name, style);

@@ -4,8 +4,8 @@
 //! the view's own eye, so that one line is half of all of them. The axis of angles is linear near 0 and logarithmic
 //! beyond [`KNEE_DEG`]: a likeness is mostly lost within few degrees, and what returns returns far from there.
 
-use crate::diagram::drawing::{Anchor, Drawing, Pen, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, Pen, TextStyle};
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT, deep};
 use glam::DVec2;
 
@@ -45,15 +45,16 @@ pub fn curves(title: &str, list: &[Curve]) -> Drawing {
     let height = TABLE + ROW * list.len() as f64 + BELOW;
     let mut drawing = Drawing::new(DVec2::new(PAGE, height));
     drawing.rect(DVec2::ZERO, drawing.size, Some(PAPER), None);
-    let head = TextStyle::new(6.4, Face::Regular, TEXT, Anchor::Start).fitting(title, PAGE - 18.0);
+    let head =
+        TextStyle::new(6.4, Typeface::Regular, TEXT, Align::Start).fitting(title, PAGE - 18.0);
     drawing.text(DVec2::new(12.0, 12.0), title, head);
     drawing.text(
         DVec2::new(12.0, 18.5),
         "How like its model the forest is to eyes that stand elsewhere, relative to the view's own eye",
-        TextStyle::new(3.4, Face::Light, QUIET, Anchor::Start),
+        TextStyle::new(3.4, Typeface::Light, QUIET, Align::Start),
     );
     let tallest = list.iter().flat_map(relative).map(|p| p.1);
-    let scale = Scale {
+    let scale = DegreeScale {
         top: tallest.fold(1.0, f64::max),
     };
     frame(&mut drawing, &scale);
@@ -65,12 +66,12 @@ pub fn curves(title: &str, list: &[Curve]) -> Drawing {
 }
 
 /// Where values lie on the page.
-struct Scale {
+struct DegreeScale {
     /// The largest value shown.
     top: f64,
 }
 
-impl Scale {
+impl DegreeScale {
     fn place(&self, deg: f64, value: f64) -> DVec2 {
         let along = (deg / KNEE_DEG).ln_1p() / (180.0 / KNEE_DEG).ln_1p();
         DVec2::new(
@@ -89,8 +90,8 @@ fn relative(curve: &Curve) -> Vec<(f64, f64)> {
     curve.points.iter().map(|p| (p.0, p.1 / own)).collect()
 }
 
-fn frame(drawing: &mut Drawing, scale: &Scale) {
-    let label = TextStyle::new(3.2, Face::Light, QUIET, Anchor::Middle);
+fn frame(drawing: &mut Drawing, scale: &DegreeScale) {
+    let label = TextStyle::new(3.2, Typeface::Light, QUIET, Align::Middle);
     for deg in TICKS_DEG {
         let (foot, head) = (scale.place(deg, 0.0), scale.place(deg, scale.top));
         drawing.polyline(&[foot, head], Pen::new(HAIR, 0.15));
@@ -104,7 +105,7 @@ fn frame(drawing: &mut Drawing, scale: &Scale) {
             start + DVec2::new(-2.0, 1.1),
             &format!("{} %", 10 * tenth),
             TextStyle {
-                anchor: Anchor::End,
+                anchor: Align::End,
                 ..label
             },
         );
@@ -116,7 +117,7 @@ fn frame(drawing: &mut Drawing, scale: &Scale) {
         "half",
         TextStyle {
             ink: TEXT,
-            anchor: Anchor::Start,
+            anchor: Align::Start,
             ..label
         },
     );
@@ -128,7 +129,7 @@ fn frame(drawing: &mut Drawing, scale: &Scale) {
     );
 }
 
-fn draw_curve(drawing: &mut Drawing, scale: &Scale, curve: &Curve) {
+fn draw_curve(drawing: &mut Drawing, scale: &DegreeScale, curve: &Curve) {
     let points = relative(curve);
     let line: Vec<DVec2> = points.iter().map(|p| scale.place(p.0, p.1)).collect();
     let ink = deep(curve.colour, 0.05);
@@ -158,7 +159,7 @@ fn draw_curve(drawing: &mut Drawing, scale: &Scale, curve: &Curve) {
 }
 
 fn table(drawing: &mut Drawing, list: &[Curve]) {
-    let head = TextStyle::new(3.0, Face::Light, QUIET, Anchor::End);
+    let head = TextStyle::new(3.0, Typeface::Light, QUIET, Align::End);
     let y = TABLE - 4.5;
     let titles = [
         "likeness at the eye",
@@ -177,7 +178,7 @@ fn table(drawing: &mut Drawing, list: &[Curve]) {
         drawing.polyline(&[start, end], Pen::new(ink, 0.9));
         drawing.circle((start + end) / 2.0, 0.9, Some(ink), None);
         let name =
-            TextStyle::new(3.6, Face::Regular, TEXT, Anchor::Start).fitting(&curve.name, 42.0);
+            TextStyle::new(3.6, Typeface::Regular, TEXT, Align::Start).fitting(&curve.name, 42.0);
         drawing.text(DVec2::new(COLUMNS[0], y), &curve.name, name);
         let own = curve.points.first().map_or(0.0, |p| p.1);
         let cells = [
@@ -187,7 +188,7 @@ fn table(drawing: &mut Drawing, list: &[Curve]) {
             or_never(curve.worst.map(|w| format!("{:.2}", w.1))),
         ];
         for (x, text) in COLUMNS[1..].iter().zip(cells) {
-            let body = TextStyle::new(3.4, Face::Light, TEXT, Anchor::End);
+            let body = TextStyle::new(3.4, Typeface::Light, TEXT, Align::End);
             drawing.text(DVec2::new(*x, y), &text, body);
         }
     }

@@ -2,75 +2,14 @@
 //!
 //! Page coordinates: x right, y down, in the drawing's own unit (millimetres for the plan, pixels for pictures).
 
-use crate::diagram::lettering::{self, Face};
+pub use super::mark::{Ink, Mark, Pen, Verb};
+
+use super::lettering::{self, Typeface};
 use glam::DVec2;
-
-/// A step of an outline.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
-    Move(DVec2),
-    Line(DVec2),
-    Quad(DVec2, DVec2),
-    Cubic(DVec2, DVec2, DVec2),
-    Close,
-}
-
-/// A colour with its opacity, 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ink {
-    pub rgb: [u8; 3],
-    pub alpha: f64,
-}
-
-impl Ink {
-    pub const fn new(rgb: [u8; 3]) -> Self {
-        Self { rgb, alpha: 1.0 }
-    }
-
-    pub const fn fade(self, alpha: f64) -> Self {
-        Self { alpha, ..self }
-    }
-}
-
-/// A line of round joins and ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pen {
-    pub ink: Ink,
-    pub width: f64,
-    /// Lengths of dash and gap.
-    pub dash: Option<[f64; 2]>,
-}
-
-impl Pen {
-    pub const fn new(ink: Ink, width: f64) -> Self {
-        Self {
-            ink,
-            width,
-            dash: None,
-        }
-    }
-
-    pub const fn dashed(self, dash: f64, gap: f64) -> Self {
-        Self {
-            dash: Some([dash, gap]),
-            ..self
-        }
-    }
-}
-
-/// An outline, filled (even-odd is never needed: non-zero) and then stroked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
-    pub steps: Vec<Step>,
-    pub fill: Option<Ink>,
-    pub pen: Option<Pen>,
-    /// What the shape says, for screen readers and for searching in the SVG.
-    pub text: Option<String>,
-}
 
 /// Where a text's anchor point lies on its baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+pub enum Align {
     Start,
     Middle,
     End,
@@ -82,15 +21,15 @@ pub struct TextStyle {
     /// Height of the em square.
     pub size: f64,
     pub ink: Ink,
-    pub face: Face,
-    pub anchor: Anchor,
+    pub face: Typeface,
+    pub anchor: Align,
     /// Colour of a border that lifts the text off what lies beneath.
     pub halo: Option<Ink>,
 }
 
 impl TextStyle {
     /// Without a border.
-    pub const fn new(size: f64, face: Face, ink: Ink, anchor: Anchor) -> Self {
+    pub const fn new(size: f64, face: Typeface, ink: Ink, anchor: Align) -> Self {
         Self {
             size,
             ink,
@@ -100,7 +39,7 @@ impl TextStyle {
         }
     }
 
-    pub const fn anchored(self, anchor: Anchor) -> Self {
+    pub const fn anchored(self, anchor: Align) -> Self {
         Self { anchor, ..self }
     }
 
@@ -125,7 +64,7 @@ impl TextStyle {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     pub size: DVec2,
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Mark>,
 }
 
 impl Drawing {
@@ -150,14 +89,14 @@ impl Drawing {
         let r = radius;
         let at = |x: f64, y: f64| centre + DVec2::new(x, y);
         let steps = vec![
-            Step::Move(at(r, 0.0)),
-            Step::Cubic(at(r, k), at(k, r), at(0.0, r)),
-            Step::Cubic(at(-k, r), at(-r, k), at(-r, 0.0)),
-            Step::Cubic(at(-r, -k), at(-k, -r), at(0.0, -r)),
-            Step::Cubic(at(k, -r), at(r, -k), at(r, 0.0)),
-            Step::Close,
+            Verb::Move(at(r, 0.0)),
+            Verb::Cubic(at(r, k), at(k, r), at(0.0, r)),
+            Verb::Cubic(at(-k, r), at(-r, k), at(-r, 0.0)),
+            Verb::Cubic(at(-r, -k), at(-k, -r), at(0.0, -r)),
+            Verb::Cubic(at(k, -r), at(r, -k), at(r, 0.0)),
+            Verb::Close,
         ];
-        self.shapes.push(Shape {
+        self.shapes.push(Mark {
             steps,
             fill,
             pen,
@@ -187,9 +126,9 @@ impl Drawing {
     fn text_for(&mut self, at: DVec2, text: &str, meaning: &str, style: TextStyle) {
         let width = lettering::width(text, style.size, style.face);
         let start = match style.anchor {
-            Anchor::Start => at,
-            Anchor::Middle => at - DVec2::new(width / 2.0, 0.0),
-            Anchor::End => at - DVec2::new(width, 0.0),
+            Align::Start => at,
+            Align::Middle => at - DVec2::new(width / 2.0, 0.0),
+            Align::End => at - DVec2::new(width, 0.0),
         };
         let steps = lettering::outlines(text, start, style.size, style.face);
         if steps.is_empty() {
@@ -197,7 +136,7 @@ impl Drawing {
         }
         if let Some(ink) = style.halo {
             let pen = Pen::new(ink, 0.22 * style.size);
-            self.shapes.push(Shape {
+            self.shapes.push(Mark {
                 steps: steps.clone(),
                 fill: Some(ink),
                 pen: Some(pen),
@@ -206,7 +145,7 @@ impl Drawing {
         }
         let weight = style.face.stroke() * style.size;
         let pen = (weight > 0.0).then_some(Pen::new(style.ink, weight));
-        self.shapes.push(Shape {
+        self.shapes.push(Mark {
             steps,
             fill: Some(style.ink),
             pen,
@@ -218,12 +157,12 @@ impl Drawing {
         let Some((first, rest)) = points.split_first() else {
             return;
         };
-        let mut steps = vec![Step::Move(*first)];
-        steps.extend(rest.iter().map(|p| Step::Line(*p)));
+        let mut steps = vec![Verb::Move(*first)];
+        steps.extend(rest.iter().map(|p| Verb::Line(*p)));
         if close {
-            steps.push(Step::Close);
+            steps.push(Verb::Close);
         }
-        self.shapes.push(Shape {
+        self.shapes.push(Mark {
             steps,
             fill,
             pen,

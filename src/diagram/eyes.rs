@@ -1,7 +1,7 @@
 //! Eyes on a map: symbols, arrows towards what they look at, names where there is room.
 
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, Shape, Step};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Mark, Pen, Verb};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{PAPER, Page, QUIET, TEXT, deep, length};
 use crate::view::View;
 use glam::DVec2;
@@ -28,13 +28,13 @@ pub fn eyes(
     };
     let ways: Vec<DVec2> = views.iter().zip(&stands).map(way).collect();
     let ways: Vec<DVec2> = ways.into_iter().map(DVec2::normalize_or_zero).collect();
-    let mut taken: Vec<Block> = Vec::new();
+    let mut taken: Vec<Rectangle> = Vec::new();
     let room = |k: usize| rooms.get(k).copied().flatten();
     for (k, ((stand, _), ahead)) in stands.iter().zip(&ways).enumerate() {
         let at = page.place(*stand);
-        taken.push(Block::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
-        taken.extend(room(k).map(|r| Block::around(at, DVec2::splat(r))));
-        taken.push(Block::around(
+        taken.push(Rectangle::around(at, DVec2::new(EYE, 0.7 * EYE) * page.u));
+        taken.extend(room(k).map(|r| Rectangle::around(at, DVec2::splat(r))));
+        taken.push(Rectangle::around(
             at + 10.0 * page.u * *ahead,
             DVec2::splat(1.2 * page.u) + 5.0 * page.u * ahead.abs(),
         ));
@@ -128,13 +128,13 @@ fn rays(drawing: &mut Drawing, page: &Page, at: DVec2, ahead: DVec2, colour: [u8
 pub fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
     let point = |x: f64, y: f64| at + r * DVec2::new(x, y);
     let steps = vec![
-        Step::Move(point(-1.0, 0.0)),
-        Step::Cubic(point(-0.5, -0.78), point(0.5, -0.78), point(1.0, 0.0)),
-        Step::Cubic(point(0.5, 0.78), point(-0.5, 0.78), point(-1.0, 0.0)),
-        Step::Close,
+        Verb::Move(point(-1.0, 0.0)),
+        Verb::Cubic(point(-0.5, -0.78), point(0.5, -0.78), point(1.0, 0.0)),
+        Verb::Cubic(point(0.5, 0.78), point(-0.5, 0.78), point(-1.0, 0.0)),
+        Verb::Close,
     ];
     let rim = Pen::new(deep(colour, 0.35), 0.14 * r);
-    drawing.shapes.push(Shape {
+    drawing.shapes.push(Mark {
         steps,
         fill: Some(Ink::new([255; 3])),
         pen: Some(rim),
@@ -157,16 +157,16 @@ fn label(
     (at, clear): (DVec2, f64),
     outward: DVec2,
     far: bool,
-    taken: &mut Vec<Block>,
+    taken: &mut Vec<Rectangle>,
 ) {
     let u = page.u;
-    let room = Block {
+    let room = Rectangle {
         lo: page.room[0],
         hi: page.room[1],
     };
-    let name = page.style(4.4, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
+    let name = page.style(4.4, Typeface::Bold, deep(view.colour, 0.35), Align::Middle);
     let most = page.widest_label;
-    let note = page.style(3.1, Face::Light, QUIET, Anchor::Middle);
+    let note = page.style(3.1, Typeface::Light, QUIET, Align::Middle);
     let distance = length(view.eye.distance(view.look_at));
     let line = match (view.orthographic, far) {
         (true, true) => "parallel rays from here".to_owned(),
@@ -194,8 +194,8 @@ fn label(
         vertical - horizontal,
         horizontal - vertical,
     ];
-    let inside = |b: &Block| b.lo.cmpge(room.lo).all() && b.hi.cmple(room.hi).all();
-    let blocks = ways.map(|d| Block::around(at + offset(d), half));
+    let inside = |b: &Rectangle| b.lo.cmpge(room.lo).all() && b.hi.cmple(room.hi).all();
+    let blocks = ways.map(|d| Rectangle::around(at + offset(d), half));
     let block = blocks
         .iter()
         .find(|b| inside(b) && !taken.iter().any(|t| t.overlaps(b)))
@@ -211,12 +211,12 @@ fn label(
 
 /// A rectangle of the page that is in use.
 #[derive(Clone)]
-struct Block {
+struct Rectangle {
     lo: DVec2,
     hi: DVec2,
 }
 
-impl Block {
+impl Rectangle {
     fn around(middle: DVec2, half: DVec2) -> Self {
         Self {
             lo: middle - half,
@@ -224,7 +224,7 @@ impl Block {
         }
     }
 
-    fn overlaps(&self, other: &Block) -> bool {
+    fn overlaps(&self, other: &Rectangle) -> bool {
         self.lo.cmplt(other.hi).all() && other.lo.cmplt(self.hi).all()
     }
 }

@@ -1,13 +1,14 @@
 //! The plan's lower part: table of views, overview to scale, key, scale bar.
 
-use crate::diagram::Facts;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::eyes::{eye_symbol, room_of_eye};
-use crate::diagram::lettering::Face;
+use crate::diagram::facts::Facts;
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{
     BASE, FREE, HAIR, Page, QUIET, RED, ROW, TABLE, TEXT, deep, length, pale,
 };
-use crate::diagram::sight::Sight;
+use crate::diagram::vista::NARROWEST;
+use crate::horizon::{Horizon, Run};
 use crate::support::SupportKind;
 use crate::view::View;
 use glam::DVec2;
@@ -37,23 +38,23 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 }
 
 fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    let head = page.style(2.7, Face::Light, QUIET, Anchor::Start);
-    let right = |style: TextStyle| style.anchored(Anchor::End);
+    let head = page.style(2.7, Typeface::Light, QUIET, Align::Start);
+    let right = |style: TextStyle| style.anchored(Align::End);
     let y = TABLE - 3.5;
     drawing.text(page.at(NAME, y), "view", head);
     drawing.text(page.at(EYE, y), "eye x, y, z in mm", head);
     drawing.text(page.at(PILLARS, y), "pillars", right(head));
     drawing.text(page.at(ANGLE, y), "width", right(head));
     drawing.text(page.at(COVERED, y), "covered", right(head));
-    for (k, (view, sight)) in facts.views.iter().zip(&facts.sights).enumerate() {
+    for (k, (view, horizon)) in facts.views.iter().zip(&facts.horizons).enumerate() {
         let y = TABLE + ROW * k as f64;
         let seen = (0..facts.supports.len())
-            .filter(|s| sight.angle_of(*s) > 0.0)
+            .filter(|s| horizon.angle_of(*s) > NARROWEST)
             .count();
         eye_symbol(drawing, page.at(14.6, y + 1.0), 2.6 * page.u, view.colour);
-        let body = page.style(3.3, Face::Light, TEXT, Anchor::Start);
+        let body = page.style(3.3, Typeface::Light, TEXT, Align::Start);
         let name = TextStyle {
-            face: Face::Regular,
+            face: Typeface::Regular,
             ..body
         };
         drawing.text_within(page.at(NAME, y + 2.2), &view.name, 36.0 * page.u, name);
@@ -66,7 +67,7 @@ fn table(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         };
         drawing.text(page.at(EYE, y + 2.2), &eye, body);
         drawing.text(page.at(PILLARS, y + 2.2), &seen.to_string(), right(body));
-        let (wide, covered) = shares(view, sight);
+        let (wide, covered) = shares(view, horizon);
         drawing.text(page.at(ANGLE, y + 2.2), &wide, right(body));
         drawing.text(page.at(COVERED, y + 2.2), &covered, right(body));
     }
@@ -83,22 +84,23 @@ fn finer(x: f64) -> String {
 }
 
 /// How wide a view's models are, and how much of that pillars cover; dashes if it has no width in plan.
-fn shares(view: &View, sight: &Sight) -> (String, String) {
-    if sight.intervals.is_empty() {
+fn shares(view: &View, horizon: &Horizon) -> (String, String) {
+    if horizon.runs().next().is_none() {
         return ("\u{2013}".to_owned(), "\u{2013}".to_owned());
     }
     // Rounded down: a gap, however thin, never reads as 100 %.
-    let covered = (1000.0 * sight.coverage() + 1e-3).floor() / 10.0;
-    (width(view, sight), format!("{covered} %"))
+    let covered = (1000.0 * horizon.coverage() + 1e-3).floor() / 10.0;
+    (width(view, horizon), format!("{covered} %"))
 }
 
 /// How wide the models are: an angle, or a length as parallel rays have it.
-fn width(view: &View, sight: &Sight) -> String {
+fn width(view: &View, horizon: &Horizon) -> String {
+    let width: f64 = horizon.runs().map(|r| Run::width(&r)).sum();
     if view.orthographic {
-        let distance = sight.eye.distance(view.look_at.truncate());
-        return format!("{:.0} mm", sight.width() * distance);
+        let distance = view.eye.truncate().distance(view.look_at.truncate());
+        return format!("{:.0} mm", width * distance);
     }
-    format!("{:.1}°", sight.width().to_degrees())
+    format!("{:.1}°", width.to_degrees())
 }
 
 /// Where the eyes really are; only if the map could not show it. Those at infinity are nowhere.
@@ -127,15 +129,15 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         let points: Vec<DVec2> = support.outline().iter().map(|p| place(*p)).collect();
         drawing.polygon(&points, Some(BASE), Some(Pen::new(HAIR, 0.2 * page.u)));
     }
-    let sights = facts.sights.iter().zip(facts.views);
-    for (sight, view) in sights.filter(|(_, v)| near(v)) {
-        for runs in &sight.intervals {
-            let hits = runs.iter().flat_map(|r| r.hits.iter());
-            let free = sight.eye.distance(page.centre) + page.radius;
+    let vistas = facts.vistas.iter().zip(facts.views);
+    for (vista, view) in vistas.filter(|(_, v)| near(v)) {
+        for sectors in &vista.intervals {
+            let hits = sectors.iter().flat_map(|r| r.hits.iter());
+            let free = vista.eye.distance(page.centre) + page.radius;
             let mut points: Vec<DVec2> = hits
-                .map(|&(a, t)| place(sight.point(a, t.min(free))))
+                .map(|&(a, t)| place(vista.point(a, t.min(free))))
                 .collect();
-            points.push(place(sight.eye));
+            points.push(place(vista.eye));
             drawing.polygon(&points, Some(Ink::new(view.colour).fade(0.3)), None);
         }
     }
@@ -155,13 +157,13 @@ fn overview(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.text(
         DVec2::new(middle.x, hi.y + 4.0 * page.u),
         &text,
-        page.style(2.7, Face::Light, QUIET, Anchor::Middle),
+        page.style(2.7, Typeface::Light, QUIET, Align::Middle),
     );
 }
 
 fn key(drawing: &mut Drawing, page: &Page) {
     let y = page.bottom() - 25.0;
-    let style = page.style(3.0, Face::Light, TEXT, Anchor::Start);
+    let style = page.style(3.0, Typeface::Light, TEXT, Align::Start);
     let grey = [0x8A, 0x8F, 0x94];
     let swatch = |x: f64| (page.at(x, y - 3.0), page.at(x + 6.0, y + 0.6));
     let (lo, hi) = swatch(12.0);
@@ -211,7 +213,7 @@ fn key_of_rooms(drawing: &mut Drawing, page: &Page) {
         2.0 * page.u,
         [0x8A, 0x8F, 0x94],
     );
-    let style = page.style(3.0, Face::Light, TEXT, Anchor::Start);
+    let style = page.style(3.0, Typeface::Light, TEXT, Align::Start);
     let text = "disc at an eye: as far as it may move with its picture still one (cuts open by 10 arc-minutes)";
     drawing.text(page.at(20.0, y), text, style);
 }
@@ -238,14 +240,14 @@ fn scale_bar(drawing: &mut Drawing, page: &Page) {
             Some(pen),
         );
     }
-    let style = page.style(2.7, Face::Light, QUIET, Anchor::Middle);
+    let style = page.style(2.7, Typeface::Light, QUIET, Align::Middle);
     drawing.text(start + DVec2::new(0.0, 4.6 * page.u), "0", style);
     drawing.text(
         start + DVec2::new(total, 4.6 * page.u),
         &length(total),
         style,
     );
-    let note = page.style(2.7, Face::Light, QUIET, Anchor::Start);
+    let note = page.style(2.7, Typeface::Light, QUIET, Align::Start);
     drawing.text(
         start + DVec2::new(total + 4.0 * page.u, 1.3 * page.u),
         "1 : 1 in the SVG; pillars count as endlessly high here",
@@ -258,7 +260,7 @@ fn scale_bar(drawing: &mut Drawing, page: &Page) {
 fn axes(drawing: &mut Drawing, page: &Page) {
     let u = page.u;
     let origin = page.at(15.0, TABLE - 14.0);
-    let style = page.style(2.7, Face::Light, QUIET, Anchor::Middle);
+    let style = page.style(2.7, Typeface::Light, QUIET, Align::Middle);
     for (way, name, at) in [
         (DVec2::X, "x", DVec2::new(9.6, 0.8)),
         (DVec2::NEG_Y, "y", DVec2::new(0.0, -9.0)),

@@ -3,9 +3,9 @@
 //! The page is as large as the forest with a margin; one unit is one millimetre. Base, cuts between plates with their pins, every
 //! pillar's footprint with its number and a cross at its axis, where the eyes are, and a bar to check the print's scale by.
 
-use crate::diagram::Plan;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::finished::Plan;
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{BASE, HAIR, PAPER, QUIET, TEXT, deep, length};
 use crate::split::Split;
 use crate::support::{Support, SupportKind};
@@ -28,13 +28,13 @@ const SMALL: f64 = 2.8;
 const CROSS: f64 = 1.5;
 
 /// From the scene to the page.
-struct Sheet {
+struct Template {
     lo: DVec2,
     hi: DVec2,
     size: DVec2,
 }
 
-impl Sheet {
+impl Template {
     fn new(supports: &[Support]) -> Self {
         let points = || supports.iter().flat_map(|s| s.outline().iter().copied());
         let lo = points().reduce(DVec2::min).unwrap_or_default();
@@ -52,10 +52,10 @@ impl Sheet {
 
 /// Draws the sheet.
 pub fn layout(title: &str, views: &[View], supports: &[Support], split: &Split) -> Plan {
-    let sheet = Sheet::new(supports);
+    let sheet = Template::new(supports);
     let mut drawing = Drawing::new(sheet.size);
     drawing.rect(DVec2::ZERO, sheet.size, Some(PAPER), None);
-    let heading = style(TITLE, TEXT, Anchor::Start).fitting(title, sheet.size.x - MARGIN);
+    let heading = style(TITLE, TEXT, Align::Start).fitting(title, sheet.size.x - MARGIN);
     drawing.text(DVec2::new(MARGIN / 2.0, MARGIN / 2.0), title, heading);
     base(&mut drawing, &sheet, supports);
     cuts(&mut drawing, &sheet, split);
@@ -68,11 +68,11 @@ pub fn layout(title: &str, views: &[View], supports: &[Support], split: &Split) 
     }
 }
 
-fn style(size: f64, ink: Ink, anchor: Anchor) -> TextStyle {
-    TextStyle::new(size, Face::Regular, ink, anchor)
+fn style(size: f64, ink: Ink, anchor: Align) -> TextStyle {
+    TextStyle::new(size, Typeface::Regular, ink, anchor)
 }
 
-fn base(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support]) {
+fn base(drawing: &mut Drawing, sheet: &Template, supports: &[Support]) {
     let bases = supports
         .iter()
         .filter(|s| matches!(s.kind, SupportKind::Base { .. }));
@@ -82,7 +82,7 @@ fn base(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support]) {
     }
 }
 
-fn cuts(drawing: &mut Drawing, sheet: &Sheet, split: &Split) {
+fn cuts(drawing: &mut Drawing, sheet: &Template, split: &Split) {
     let pen = Pen::new(TEXT, 2.0 * FINE).dashed(2.0, 1.2);
     // A little beyond the base, so that they can be told from what is engraved on it.
     let (lo, hi) = (sheet.lo - 3.0, sheet.hi + 3.0);
@@ -101,7 +101,7 @@ fn cuts(drawing: &mut Drawing, sheet: &Sheet, split: &Split) {
     }
 }
 
-fn pillars(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support], split: &Split) {
+fn pillars(drawing: &mut Drawing, sheet: &Template, supports: &[Support], split: &Split) {
     let pen = Pen::new(TEXT, FINE);
     for socket in &split.sockets {
         let SupportKind::Pillar { axis, profile, .. } = &supports[socket.support].kind else {
@@ -126,19 +126,19 @@ fn pillars(drawing: &mut Drawing, sheet: &Sheet, supports: &[Support], split: &S
             Some(label) => {
                 let size = (5.0 * label.stroke / 0.7).min(1.1 * reach + 2.0);
                 let at = sheet.at(label.middle) + DVec2::new(0.0, 0.35 * size);
-                drawing.text(at, &text, style(size, TEXT, Anchor::Middle));
+                drawing.text(at, &text, style(size, TEXT, Align::Middle));
             }
             None => {
                 let size = reach.clamp(1.2, 4.0);
                 let at = middle + DVec2::new(0.35 * reach, -0.2 * reach);
-                drawing.text(at, &text, style(size, TEXT, Anchor::Start));
+                drawing.text(at, &text, style(size, TEXT, Align::Start));
             }
         }
     }
 }
 
 /// An arrow for each eye, at the rim, towards what it looks at.
-fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
+fn eyes(drawing: &mut Drawing, sheet: &Template, views: &[View]) {
     let (centre, half) = ((sheet.lo + sheet.hi) / 2.0, (sheet.hi - sheet.lo) / 2.0);
     for view in views {
         let away = (view.eye - view.look_at).truncate();
@@ -159,7 +159,7 @@ fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
             false => length(view.eye.truncate().distance(centre)),
         };
         let text = format!("{} {distance}", view.name);
-        let half = width(&text, SMALL, Face::Regular) / 2.0;
+        let half = width(&text, SMALL, Typeface::Regular) / 2.0;
         // Beside an upright arrow, beyond one that lies.
         let at = if way.x.abs() < 0.7 {
             tip + 5.0 * back + DVec2::new(half + 2.0, 1.0)
@@ -168,12 +168,12 @@ fn eyes(drawing: &mut Drawing, sheet: &Sheet, views: &[View]) {
         };
         let room = half + 1.0;
         let at = DVec2::new(at.x.clamp(room, (sheet.size.x - room).max(room)), at.y);
-        let words = style(SMALL, ink, Anchor::Middle).lifted(PAPER);
+        let words = style(SMALL, ink, Align::Middle).lifted(PAPER);
         drawing.text(at, &text, words);
     }
 }
 
-fn bar(drawing: &mut Drawing, sheet: &Sheet) {
+fn bar(drawing: &mut Drawing, sheet: &Template) {
     let start = DVec2::new(MARGIN / 2.0, sheet.size.y - 7.0);
     let pen = Pen::new(TEXT, 2.0 * FINE);
     drawing.polyline(&[start, start + BAR * DVec2::X], pen);
@@ -185,6 +185,6 @@ fn bar(drawing: &mut Drawing, sheet: &Sheet) {
     drawing.text(
         words,
         &format!("{BAR} mm; print at 100 %, from above, y up"),
-        style(SMALL, QUIET, Anchor::Start),
+        style(SMALL, QUIET, Align::Start),
     );
 }

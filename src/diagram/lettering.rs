@@ -1,19 +1,19 @@
 //! Text as outlines, so that every machine shows the same letters, whatever fonts it has.
 
-use crate::diagram::drawing::Step;
+use super::mark::Verb;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 use glam::DVec2;
 use std::sync::LazyLock;
 
 /// A typeface. The heavier ones are the light one with its outline stroked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Face {
+pub enum Typeface {
     Light,
     Regular,
     Bold,
 }
 
-impl Face {
+impl Typeface {
     /// Width of the stroke that thickens the letters, in ems.
     pub fn stroke(self) -> f64 {
         match self {
@@ -44,7 +44,7 @@ fn glyph(c: char) -> Option<(&'static FontRef<'static>, GlyphId, f64)> {
 }
 
 /// Walks along a text; calls `visit` with every letter and its start, gives the width. In ems.
-fn set(text: &str, face: Face, mut visit: impl FnMut(&FontRef, GlyphId, f64, f64)) -> f64 {
+fn set(text: &str, face: Typeface, mut visit: impl FnMut(&FontRef, GlyphId, f64, f64)) -> f64 {
     let mut x = 0.0;
     for c in text.chars().filter(|c| !c.is_control()) {
         let Some((font, id, scale)) = glyph(c) else {
@@ -57,12 +57,12 @@ fn set(text: &str, face: Face, mut visit: impl FnMut(&FontRef, GlyphId, f64, f64
 }
 
 /// Width of a line of text.
-pub fn width(text: &str, size: f64, face: Face) -> f64 {
+pub fn width(text: &str, size: f64, face: Typeface) -> f64 {
     size * set(text, face, |_, _, _, _| {})
 }
 
 /// A text cut to a width, with an ellipsis.
-pub fn shortened(text: &str, most: f64, size: f64, face: Face) -> String {
+pub fn shortened(text: &str, most: f64, size: f64, face: Typeface) -> String {
     if width(text, size, face) <= most {
         return text.to_owned();
     }
@@ -77,7 +77,7 @@ pub fn shortened(text: &str, most: f64, size: f64, face: Face) -> String {
 }
 
 /// The outlines of a line of text whose baseline starts at `start`.
-pub fn outlines(text: &str, start: DVec2, size: f64, face: Face) -> Vec<Step> {
+pub fn outlines(text: &str, start: DVec2, size: f64, face: Typeface) -> Vec<Verb> {
     let mut steps = Vec::new();
     set(text, face, |font, id, scale, x| {
         let Some(outline) = font.outline(id) else {
@@ -91,19 +91,19 @@ pub fn outlines(text: &str, start: DVec2, size: f64, face: Face) -> Vec<Step> {
             let (from, to) = ends(&curve);
             if pen != Some(from) {
                 if pen.is_some() {
-                    steps.push(Step::Close);
+                    steps.push(Verb::Close);
                 }
-                steps.push(Step::Move(place(from)));
+                steps.push(Verb::Move(place(from)));
             }
             steps.push(match curve {
-                OutlineCurve::Line(_, b) => Step::Line(place(b)),
-                OutlineCurve::Quad(_, b, c) => Step::Quad(place(b), place(c)),
-                OutlineCurve::Cubic(_, b, c, d) => Step::Cubic(place(b), place(c), place(d)),
+                OutlineCurve::Line(_, b) => Verb::Line(place(b)),
+                OutlineCurve::Quad(_, b, c) => Verb::Quad(place(b), place(c)),
+                OutlineCurve::Cubic(_, b, c, d) => Verb::Cubic(place(b), place(c), place(d)),
             });
             pen = Some(to);
         }
         if pen.is_some() {
-            steps.push(Step::Close);
+            steps.push(Verb::Close);
         }
     });
     steps

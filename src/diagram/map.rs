@@ -1,11 +1,11 @@
 //! The plan's main part: base, visible ranges, pillars, constrained segments, eyes.
 
-use crate::diagram::Facts;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
 use crate::diagram::eyes::eyes;
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::facts::Facts;
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, pale};
-use crate::diagram::sight::{Run, Sight};
+use crate::diagram::vista::{Sector, Vista};
 use crate::support::{Support, SupportKind};
 use glam::DVec2;
 
@@ -13,24 +13,24 @@ pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.rect(DVec2::ZERO, page.size(), Some(PAPER), None);
     heading(drawing, page, facts);
     base(drawing, page, facts);
-    for (sight, view) in facts.sights.iter().zip(facts.views) {
-        sight
+    for (vista, view) in facts.vistas.iter().zip(facts.views) {
+        vista
             .intervals
             .iter()
-            .for_each(|runs| fan(drawing, page, sight, runs, view.colour));
+            .for_each(|sectors| fan(drawing, page, vista, sectors, view.colour));
     }
     pillars(drawing, page, facts);
-    for sight in &facts.sights {
-        sight
-            .runs()
-            .for_each(|run| constrained(drawing, page, facts, sight, run));
+    for vista in &facts.vistas {
+        vista
+            .sectors()
+            .for_each(|sector| constrained(drawing, page, facts, vista, sector));
     }
     numbers(drawing, page, facts);
     eyes(drawing, page, facts.views, facts.rooms, &[]);
 }
 
 fn heading(drawing: &mut Drawing, page: &Page, facts: &Facts) {
-    let full = page.style(9.0, Face::Regular, TEXT, Anchor::Start);
+    let full = page.style(9.0, Typeface::Regular, TEXT, Align::Start);
     drawing.text(
         page.at(12.0, 19.0),
         facts.title,
@@ -45,7 +45,7 @@ fn heading(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.text(
         page.at(12.0, 26.0),
         &line,
-        page.style(3.6, Face::Light, QUIET, Anchor::Start),
+        page.style(3.6, Typeface::Light, QUIET, Align::Start),
     );
 }
 
@@ -64,13 +64,16 @@ fn base(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 }
 
 /// The range of one interval: from the eye, or from the range's end if the eye is drawn nearer than it is, to what it meets.
-pub fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colour: [u8; 3]) {
-    let hits: Vec<(f64, f64)> = runs.iter().flat_map(|r| r.hits.iter().copied()).collect();
-    let broken = page.stand(sight.eye).1;
-    let points = range(page, sight, &hits);
+pub fn fan(drawing: &mut Drawing, page: &Page, vista: &Vista, sectors: &[Sector], colour: [u8; 3]) {
+    let hits: Vec<(f64, f64)> = sectors
+        .iter()
+        .flat_map(|r| r.hits.iter().copied())
+        .collect();
+    let broken = page.stand(vista.eye).1;
+    let points = range(page, vista, &hits);
     drawing.polygon(&points, Some(Ink::new(colour).fade(0.26)), None);
     for side in [hits.first(), hits.last()].into_iter().flatten() {
-        let Some((near, far)) = stretch(page, sight, *side) else {
+        let Some((near, far)) = stretch(page, vista, *side) else {
             continue;
         };
         drawing.polyline(
@@ -90,19 +93,19 @@ pub fn fan(drawing: &mut Drawing, page: &Page, sight: &Sight, runs: &[Run], colo
 }
 
 /// What lies before some hits of an eye, as a polygon on the page: what they hit first, then back along the eye's side.
-pub fn range(page: &Page, sight: &Sight, hits: &[(f64, f64)]) -> Vec<DVec2> {
-    let ends = |hit: &(f64, f64)| stretch(page, sight, *hit);
+pub fn range(page: &Page, vista: &Vista, hits: &[(f64, f64)]) -> Vec<DVec2> {
+    let ends = |hit: &(f64, f64)| stretch(page, vista, *hit);
     let far = hits.iter().filter_map(ends).map(|s| s.1);
     let near = hits.iter().rev().filter_map(ends).map(|s| s.0);
     far.chain(near).collect()
 }
 
 /// Where a ray begins on the page, and where it meets something or leaves the range.
-fn stretch(page: &Page, sight: &Sight, (angle, t): (f64, f64)) -> Option<(DVec2, DVec2)> {
-    let (entry, exit) = chord(sight.eye - page.centre, sight.direction(angle), page.range)?;
-    let broken = page.stand(sight.eye).1;
+fn stretch(page: &Page, vista: &Vista, (angle, t): (f64, f64)) -> Option<(DVec2, DVec2)> {
+    let (entry, exit) = chord(vista.eye - page.centre, vista.direction(angle), page.range)?;
+    let broken = page.stand(vista.eye).1;
     let start = if broken { entry.max(0.0) } else { 0.0 };
-    let at = |t: f64| page.place(sight.point(angle, t));
+    let at = |t: f64| page.place(vista.point(angle, t));
     Some((at(start), at(t.min(exit))))
 }
 
@@ -133,8 +136,8 @@ fn pillars(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     }
 }
 
-fn constrained(drawing: &mut Drawing, page: &Page, facts: &Facts, sight: &Sight, run: &Run) {
-    let Some((room, line)) = sight.constrained(run, facts.supports) else {
+fn constrained(drawing: &mut Drawing, page: &Page, facts: &Facts, vista: &Vista, sector: &Sector) {
+    let Some((room, line)) = vista.constrained(sector, facts.supports) else {
         return;
     };
     drawing.polygon(
@@ -168,9 +171,9 @@ fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         if size < 0.9 * page.u {
             continue;
         }
-        let half = DVec2::new(width(&text, size, Face::Regular), 0.7 * size) / 2.0;
+        let half = DVec2::new(width(&text, size, Typeface::Regular), 0.7 * size) / 2.0;
         let room = half.length() + 0.1 * size;
-        let away = facts.owners[k].and_then(|v| (axis - facts.sights[v].eye).try_normalize());
+        let away = facts.owners[k].and_then(|v| (axis - facts.vistas[v].eye).try_normalize());
         let around = away.into_iter().flat_map(|away| {
             [0.0, 0.5, -0.5, 1.0, -1.0].map(|turn| DVec2::from_angle(turn).rotate(away))
         });
@@ -187,8 +190,8 @@ fn numbers(drawing: &mut Drawing, page: &Page, facts: &Facts) {
         let style = TextStyle {
             size,
             ink,
-            face: Face::Regular,
-            anchor: Anchor::Middle,
+            face: Typeface::Regular,
+            anchor: Align::Middle,
             halo,
         };
         drawing.text(

@@ -8,79 +8,33 @@ pub mod chart;
 pub mod curves;
 pub mod drawing;
 mod eyes;
+mod facts;
+mod finished;
 mod footer;
 mod layout;
 pub mod lettering;
 mod map;
+mod mark;
 mod page;
 pub mod planning;
 pub mod raster;
 pub mod section;
-mod sight;
 mod svg;
+pub mod vista;
 
+pub use finished::Plan;
 pub use layout::layout;
-pub use sight::{Run, Sight};
 
-use crate::diagram::drawing::Drawing;
-use crate::diagram::page::Page;
-use crate::support::{Support, SupportKind};
+use crate::support::Support;
 use crate::view::View;
-
-/// A finished page.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    title: String,
-    drawing: Drawing,
-}
-
-impl Plan {
-    /// An SVG document, one unit a millimetre.
-    pub fn svg(&self) -> String {
-        self.drawing.svg(&self.title)
-    }
-
-    /// A PNG of this width in pixels.
-    pub fn png(&self, width_px: u32) -> Vec<u8> {
-        self.drawing.png(width_px)
-    }
-}
-
-/// What the page tells, worked out before anything is drawn.
-struct Facts<'a> {
-    title: &'a str,
-    views: &'a [View],
-    supports: &'a [Support],
-    /// One per view.
-    sights: Vec<Sight>,
-    /// For every support the view that sees most of it, if any does.
-    owners: Vec<Option<usize>>,
-    /// How far every eye may move, millimetres; empty if that is not known.
-    rooms: &'a [Option<f64>],
-}
-
-impl Facts<'_> {
-    fn pillars(&self) -> usize {
-        self.supports
-            .iter()
-            .filter(|s| matches!(s.kind, SupportKind::Pillar { .. }))
-            .count()
-    }
-}
+use drawing::Drawing;
+use facts::Facts;
+use page::Page;
 
 /// Draws the visibility map of a scene. `rooms` are how far every view's eye may move before its picture breaks,
 /// millimetres; empty if nothing was built yet.
 pub fn plan(title: &str, views: &[View], supports: &[Support], rooms: &[Option<f64>]) -> Plan {
-    let sights: Vec<Sight> = views.iter().map(|v| Sight::new(v, supports)).collect();
-    let owners = (0..supports.len()).map(|k| owner(&sights, k)).collect();
-    let facts = Facts {
-        title,
-        views,
-        supports,
-        sights,
-        owners,
-        rooms,
-    };
+    let facts = Facts::new(title, views, supports, rooms);
     let page = Page::new(&facts);
     let mut drawing = Drawing::new(page.size());
     map::draw(&mut drawing, &page, &facts);
@@ -89,16 +43,4 @@ pub fn plan(title: &str, views: &[View], supports: &[Support], rooms: &[Option<f
         title: title.to_owned(),
         drawing,
     }
-}
-
-/// The view that sees the support `k` over the widest angle; the earlier one of equals.
-fn owner(sights: &[Sight], k: usize) -> Option<usize> {
-    let mut best = (None, 0.0);
-    for (view, sight) in sights.iter().enumerate() {
-        let angle = sight.angle_of(k);
-        if angle > best.1 {
-            best = (Some(view), angle);
-        }
-    }
-    best.0
 }

@@ -3,9 +3,9 @@
 //! Everything is laid out in units of a sixtieth of the forest's radius, `u`, on a page of at least 210 x 297 u:
 //! the proportions of A4, whatever the size of the forest.
 
-use crate::diagram::Facts;
-use crate::diagram::drawing::{Anchor, Ink, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Ink, TextStyle};
+use crate::diagram::facts::Facts;
+use crate::diagram::lettering::Typeface;
 use crate::support::Support;
 use glam::DVec2;
 
@@ -136,7 +136,7 @@ impl Page {
     }
 
     /// Text of a size in layout units.
-    pub fn style(&self, size: f64, face: Face, ink: Ink, anchor: Anchor) -> TextStyle {
+    pub fn style(&self, size: f64, face: Typeface, ink: Ink, anchor: Align) -> TextStyle {
         TextStyle::new(size * self.u, face, ink, anchor)
     }
 }

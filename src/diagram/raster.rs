@@ -1,6 +1,6 @@
 //! Drawings as pixels (tiny-skia).
 
-use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
+use crate::diagram::drawing::{Drawing, Ink, Mark, Verb};
 use tiny_skia::{
     Color, FillRule, IntRect, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke,
     StrokeDash, Transform,
@@ -64,7 +64,7 @@ pub fn encode(pixmap: &Pixmap) -> Vec<u8> {
     pixmap.encode_png().expect("writing a PNG to memory")
 }
 
-fn paint(pixmap: &mut Pixmap, shape: &Shape, scale: f32) {
+fn paint(pixmap: &mut Pixmap, shape: &Mark, scale: f32) {
     // `None` for outlines with coordinates that are not finite: nothing to draw.
     let Some(path) = path(&shape.steps) else {
         return;
@@ -96,17 +96,17 @@ fn paint_of(ink: Ink) -> Paint<'static> {
     paint
 }
 
-fn path(steps: &[Step]) -> Option<Path> {
+fn path(steps: &[Verb]) -> Option<Path> {
     let mut builder = PathBuilder::new();
     for step in steps {
         match *step {
-            Step::Move(p) => builder.move_to(p.x as f32, p.y as f32),
-            Step::Line(p) => builder.line_to(p.x as f32, p.y as f32),
-            Step::Quad(a, p) => builder.quad_to(a.x as f32, a.y as f32, p.x as f32, p.y as f32),
-            Step::Cubic(a, b, p) => builder.cubic_to(
+            Verb::Move(p) => builder.move_to(p.x as f32, p.y as f32),
+            Verb::Line(p) => builder.line_to(p.x as f32, p.y as f32),
+            Verb::Quad(a, p) => builder.quad_to(a.x as f32, a.y as f32, p.x as f32, p.y as f32),
+            Verb::Cubic(a, b, p) => builder.cubic_to(
                 a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32,
             ),
-            Step::Close => builder.close(),
+            Verb::Close => builder.close(),
         }
     }
     builder.finish()

@@ -1,6 +1,6 @@
 //! Drawings as SVG text: one unit is one millimetre on paper.
 
-use crate::diagram::drawing::{Drawing, Ink, Shape, Step};
+use crate::diagram::drawing::{Drawing, Ink, Mark, Verb};
 use crate::formats::markup::escaped;
 use glam::DVec2;
 use std::fmt::Write as _;
@@ -30,7 +30,7 @@ pub fn opening(size: DVec2, title: &str) -> String {
 
 pub const CLOSING: &str = "</g>\n</svg>\n";
 
-pub fn push_shape(svg: &mut String, shape: &Shape) {
+pub fn push_shape(svg: &mut String, shape: &Mark) {
     svg.push_str("<path");
     push_ink(svg, "fill", shape.fill);
     if let Some(pen) = shape.pen {
@@ -68,7 +68,7 @@ fn push_ink(svg: &mut String, attribute: &str, ink: Option<Ink>) {
     }
 }
 
-fn push_step(svg: &mut String, step: Step) {
+fn push_step(svg: &mut String, step: Verb) {
     let mut put = |letter: char, points: &[DVec2]| {
         svg.push(letter);
         for (k, p) in points.iter().enumerate() {
@@ -77,11 +77,11 @@ fn push_step(svg: &mut String, step: Step) {
         }
     };
     match step {
-        Step::Move(p) => put('M', &[p]),
-        Step::Line(p) => put('L', &[p]),
-        Step::Quad(a, p) => put('Q', &[a, p]),
-        Step::Cubic(a, b, p) => put('C', &[a, b, p]),
-        Step::Close => put('Z', &[]),
+        Verb::Move(p) => put('M', &[p]),
+        Verb::Line(p) => put('L', &[p]),
+        Verb::Quad(a, p) => put('Q', &[a, p]),
+        Verb::Cubic(a, b, p) => put('C', &[a, b, p]),
+        Verb::Close => put('Z', &[]),
     }
 }
 

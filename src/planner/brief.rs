@@ -1,6 +1,7 @@
 //! What is wanted of a layout: region, pillars allowed, what matters.
 
 use crate::geom::{Circle, contains, inscribed, to_segment};
+use crate::horizon::{Footprint, Obstacle};
 use crate::support::Layer;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 
@@ -20,6 +21,22 @@ pub struct Shape {
     pub written: String,
 }
 
+impl Shape {
+    /// A pillar of this shape at a place, for the horizon. Round ones are circles, whatever polygon they are printed as: a layout is worth
+    /// the same from all sides, and nothing of it depends on where corners happen to lie.
+    pub fn obstacle(&self, at: DVec2) -> Obstacle<'_> {
+        let footprint = if self.round {
+            Footprint::Disc { radius: self.reach }
+        } else {
+            Footprint::Polygon {
+                corners: &self.profile,
+                inside: DVec2::ZERO,
+            }
+        };
+        Obstacle { at, footprint }
+    }
+}
+
 /// A pillar of a layout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pillar {
@@ -34,7 +51,12 @@ pub struct Pillar {
     pub given: Option<usize>,
 }
 
-/// What matters, as weights; see [`Score`](super::Score).
+/// A place rounded as it is written.
+pub fn rounded(at: DVec2) -> DVec2 {
+    (at * 1e3).round() / 1e3
+}
+
+/// What matters, as weights on a layout's score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matters {
     pub camouflage: f64,

@@ -1,14 +1,16 @@
 //! From what a search found to a plan: heights, what the layout is worth, the way to it.
 
 use super::brief::Pillar;
-use super::forecast::Forest;
-use super::limits::text;
-use super::search::{Chain, Layout, Problem};
+use super::forecast::{Forecast, Tally};
+use super::planned::{Change, Ended, Frame, Planned, Trade, Worth};
+use super::posing::posed;
+use super::search::Annealed;
 use super::start::Start;
 use super::subject::{Rays, Subject};
-use super::survey::{Kind, reach_of};
-use super::{Change, Ended, Frame, Planned, Trade, Worth, posed};
+use super::survey::{FaultKind, reach_of};
+use super::task::{Layout, Task};
 use crate::bvh::Bvh;
+use crate::horizon::Run;
 use crate::steps::UNSEEN_RAD;
 use crate::view::View;
 use glam::DVec2;
@@ -28,57 +30,59 @@ const RAYS: Rays = Rays {
 };
 
 /// What a search came to.
-pub struct Outcome<'a> {
+pub struct Harvest<'a> {
     pub views: &'a [View],
-    pub problem: &'a Problem<'a>,
+    pub task: &'a Task<'a>,
     pub start: Start,
     pub layout: Layout,
     /// In the order of the search.
-    pub chains: Vec<Chain>,
+    pub chains: Vec<Annealed>,
     /// Those at other tolerances, which end elsewhere.
-    pub aside: Vec<Chain>,
+    pub aside: Vec<Annealed>,
 }
 
-pub fn finished(outcome: Outcome) -> Planned {
-    let Outcome {
+pub fn finished(harvest: Harvest) -> Planned {
+    let Harvest {
         views,
-        problem,
+        task,
         start,
         layout,
         chains,
         aside,
-    } = outcome;
-    let layout = in_order(problem, layout);
-    let subjects = problem.subjects(&layout.poses);
-    let first = problem.layout(start.pillars, vec![0; views.len()]);
-    let worth = worth(views, problem, &layout, &subjects);
+    } = harvest;
+    let layout = in_order(task, layout);
+    let subjects = task.subjects(&layout.poses);
+    let first = task.layout(start.pillars, vec![0; views.len()]);
+    let worth = worth(views, task, &layout, &subjects);
     Planned {
         heights: (0..layout.pillars.len())
-            .map(|i| height(problem, &layout, &subjects, i))
+            .map(|i| height(task, &layout, &subjects, i))
             .collect(),
         adjustments: layout
             .poses
             .iter()
-            .zip(problem.poses)
+            .zip(task.poses)
             .map(|(p, of_view)| of_view[*p].adjustment)
             .collect(),
         worth,
         regions: start.regions,
-        frames: frames(views, &first, &chains, &layout),
+        frames: frames(&first, &chains, &layout),
         trade: trade(chains.iter().chain(&aside), &layout),
         tries: chains.iter().chain(&aside).map(|c| c.tries).sum(),
         ended: ended(&chains, &aside),
-        changes: changes(problem, &layout),
+        changes: changes(task, &layout),
         pillars: layout.pillars,
     }
 }
 
 /// Given pillars first, in their order, then those of each view from its left to its right.
-fn in_order(problem: &Problem, layout: Layout) -> Layout {
+fn in_order(task: &Task, layout: Layout) -> Layout {
     let mut order: Vec<usize> = (0..layout.pillars.len()).collect();
     let key = |i: usize| {
         let p = &layout.pillars[i];
-        let bearing = p.owner.map_or(0.0, |v| layout.survey.shadows[v][i].middle);
+        let bearing = p
+            .owner
+            .map_or(0.0, |v| layout.survey.skylines[v].shadows[i].middle);
         (p.given.unwrap_or(usize::MAX), p.owner, -bearing)
     };
     order.sort_by(|a, b| {
@@ -86,44 +90,44 @@ fn in_order(problem: &Problem, layout: Layout) -> Layout {
         (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
     });
     let pillars = order.iter().map(|i| layout.pillars[*i]).collect();
-    problem.layout(pillars, layout.poses)
+    task.layout(pillars, layout.poses)
 }
 
 /// As low as the shape allows and all rays to the models meet the pillar.
-fn height(problem: &Problem, layout: &Layout, subjects: &[&Subject], i: usize) -> f64 {
+fn height(task: &Task, layout: &Layout, subjects: &[&Subject], i: usize) -> f64 {
     let pillar = &layout.pillars[i];
-    let shape = &problem.brief.shapes[pillar.shape];
+    let shape = &task.brief.shapes[pillar.shape];
     let [lowest, highest] = shape.heights;
     let Some(view) = pillar.owner else {
         return lowest;
     };
-    let [near, far] = reach_of(&layout.survey.shadows[view][i], shape);
-    let own = layout.survey.runs[view]
-        .iter()
-        .filter(|r| r.pillar == Some(i));
-    let needed = own.map(|r| subjects[view].height_needed(r.from, r.to, near, far));
+    let skyline = &layout.survey.skylines[view];
+    let [near, far] = reach_of(&skyline.shadows[i], shape);
+    let needed = skyline
+        .runs_on(i)
+        .map(|r| subjects[view].height_needed(r.from, r.to, near, far));
     // Rounded up, as it is written.
     ((needed.fold(lowest, f64::max) * 10.0).ceil() / 10.0).clamp(lowest, highest)
 }
 
-fn worth(views: &[View], problem: &Problem, layout: &Layout, subjects: &[&Subject]) -> Vec<Worth> {
+fn worth(views: &[View], task: &Task, layout: &Layout, subjects: &[&Subject]) -> Vec<Worth> {
     let of_view = |v: usize| {
-        let runs = &layout.survey.runs[v];
+        let runs = &layout.survey.skylines[v].runs;
         let width = |own: bool| -> f64 {
-            let counted = runs
-                .iter()
-                .filter(|r| !own || r.pillar.is_some_and(|i| layout.pillars[i].owner == Some(v)));
-            counted.map(|r| r.to - r.from).sum()
+            let counted = runs.iter().filter(|r| {
+                !own || r
+                    .obstacle
+                    .is_some_and(|i| layout.pillars[i].owner == Some(v))
+            });
+            counted.map(Run::width).sum()
         };
-        let mut seen: Vec<usize> = runs.iter().filter_map(|r| r.pillar).collect();
+        let mut seen: Vec<usize> = runs.iter().filter_map(|r| r.obstacle).collect();
         seen.sort_unstable();
         seen.dedup();
-        let conflicts = layout
-            .survey
-            .faults
-            .iter()
-            .filter(|f| f.view == Some(v) && matches!(f.kind, Kind::Foreign | Kind::Sight));
-        let (hidden_deg, half_likeness_deg) = likeness(&views[v], problem, layout, subjects, v);
+        let conflicts = layout.survey.faults.iter().filter(|f| {
+            f.view == Some(v) && matches!(f.kind, FaultKind::Foreign | FaultKind::Sight)
+        });
+        let (hidden_deg, half_likeness_deg) = likeness(&views[v], task, layout, subjects, v);
         Worth {
             coverage: if width(false) > 0.0 {
                 width(true) / width(false)
@@ -144,25 +148,25 @@ fn worth(views: &[View], problem: &Problem, layout: &Layout, subjects: &[&Subjec
 /// Forecast mean error at the brief's angle, and the angle at which half of the likeness is lost.
 fn likeness(
     view: &View,
-    problem: &Problem,
+    task: &Task,
     layout: &Layout,
     subjects: &[&Subject],
     v: usize,
 ) -> (f64, Option<f64>) {
-    let view = posed(view, &problem.poses[v][layout.poses[v]].adjustment);
+    let view = posed(view, &task.poses[v][layout.poses[v]].adjustment);
     let target = view.target();
     let bvh = Bvh::new(&target);
-    let forest = Forest {
+    let forest = Forecast {
         subjects,
-        brief: problem.brief,
+        brief: task.brief,
         pillars: &layout.pillars,
         survey: &layout.survey,
     };
-    let level = subjects[v].outlooks(&target, &bvh, [problem.brief.hidden_from_deg, 0.0], RAYS);
+    let level = subjects[v].outlooks(&target, &bvh, [task.brief.hidden_from_deg, 0.0], RAYS);
     let hidden = level
         .iter()
         .map(|o| forest.seen(o))
-        .sum::<super::forecast::Tally>()
+        .sum::<Tally>()
         .mean_error_deg();
     let at = |deg: f64| {
         // The own eye has no ring around it.
@@ -177,7 +181,7 @@ fn likeness(
     (hidden, crate::geom::half_angle(&curve))
 }
 
-fn frames(views: &[View], first: &Layout, chains: &[Chain], last: &Layout) -> Vec<Frame> {
+fn frames(first: &Layout, chains: &[Annealed], last: &Layout) -> Vec<Frame> {
     let mut way: Vec<(u64, &Layout)> = vec![(0, first)];
     let searched: u64 = chains.iter().map(|c| c.tries).sum();
     for (tries, layout) in chains.iter().flat_map(|c| &c.way) {
@@ -192,22 +196,21 @@ fn frames(views: &[View], first: &Layout, chains: &[Chain], last: &Layout) -> Ve
     }
     way.push((searched, last));
     way.into_iter()
-        .map(|(tries, layout)| frame(views, tries, layout))
+        .map(|(tries, layout)| frame(tries, layout))
         .collect()
 }
 
-fn frame(views: &[View], tries: u64, layout: &Layout) -> Frame {
+fn frame(tries: u64, layout: &Layout) -> Frame {
     Frame {
         tries,
         pillars: layout.pillars.clone(),
-        runs: layout.survey.runs.clone(),
-        faults: layout.survey.faults.clone(),
-        marks: layout
+        runs: layout
             .survey
-            .faults
+            .skylines
             .iter()
-            .map(|f| (f.at, text(f, views)))
+            .map(|s| s.runs.clone())
             .collect(),
+        faults: layout.survey.faults.clone(),
         hidden_deg: if layout.hidden_deg.is_empty() {
             0.0
         } else {
@@ -218,7 +221,7 @@ fn frame(views: &[View], tries: u64, layout: &Layout) -> Frame {
 }
 
 /// The best forecasts at every tolerance that no better one reaches too, and the chosen layout.
-fn trade<'a>(chains: impl Iterator<Item = &'a Chain>, layout: &Layout) -> Vec<Trade> {
+fn trade<'a>(chains: impl Iterator<Item = &'a Annealed>, layout: &Layout) -> Vec<Trade> {
     if layout.hidden_deg.is_empty() {
         return Vec::new();
     }
@@ -252,7 +255,7 @@ fn trade<'a>(chains: impl Iterator<Item = &'a Chain>, layout: &Layout) -> Vec<Tr
     curve
 }
 
-fn ended(chains: &[Chain], aside: &[Chain]) -> Ended {
+fn ended(chains: &[Annealed], aside: &[Annealed]) -> Ended {
     if chains.iter().chain(aside).any(|c| c.stopped) {
         Ended::Stopped
     } else if chains.iter().any(|c| c.converged) {
@@ -262,8 +265,8 @@ fn ended(chains: &[Chain], aside: &[Chain]) -> Ended {
     }
 }
 
-fn changes(problem: &Problem, layout: &Layout) -> Vec<Change> {
-    let given = &problem.brief.given;
+fn changes(task: &Task, layout: &Layout) -> Vec<Change> {
+    let given = &task.brief.given;
     let of = |g: usize| {
         layout
             .pillars

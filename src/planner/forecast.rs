@@ -8,9 +8,9 @@
 //! pillar, to the painted plane, or to the bare body; past all of them to the base or into the air, which counts 90 degrees.
 
 use super::brief::{Brief, Pillar};
-use super::skyline::entry;
 use super::subject::{Outlook, OutlookColumn, Subject};
 use super::survey::{Offsets, Survey};
+use crate::horizon::Ray;
 use glam::{DVec2, DVec3, Vec3};
 use std::iter::Sum;
 
@@ -91,14 +91,14 @@ impl Sum for Tally {
 
 /// What a layout is seen with.
 #[derive(Clone, Copy)]
-pub struct Forest<'a> {
+pub struct Forecast<'a> {
     pub subjects: &'a [&'a Subject],
     pub brief: &'a Brief,
     pub pillars: &'a [Pillar],
     pub survey: &'a Survey,
 }
 
-impl Forest<'_> {
+impl Forecast<'_> {
     /// One outlook.
     pub fn seen(&self, outlook: &Outlook) -> Tally {
         outlook
@@ -145,11 +145,11 @@ impl Forest<'_> {
         if way.perp_dot(pillar.at - eye).abs() > shape.reach {
             return None;
         }
-        let (body, outward) = entry(eye, way, pillar.at, shape)?;
-        let met = eye + body * way;
+        let ray = Ray::new(eye, way);
+        let entry = shape.obstacle(pillar.at).entry(&ray)?;
         let mut passage = Passage {
-            body,
-            normal: outward.extend(0.0).as_vec3(),
+            body: entry.distance,
+            normal: entry.normal.extend(0.0).as_vec3(),
             height: shape.heights[1],
             carved: None,
             painted: None,
@@ -158,14 +158,15 @@ impl Forest<'_> {
         let Some(view) = pillar.owner else {
             return Some(passage);
         };
-        let (subject, shadow) = (self.subjects[view], &self.survey.shadows[view][index]);
+        let (subject, skyline) = (self.subjects[view], &self.survey.skylines[view]);
+        let shadow = &skyline.shadows[index];
         let ahead = (pillar.at - subject.o) / shadow.distance;
         let place = |p: DVec2| {
             let offset = p - subject.o;
             let bearing = shadow.middle + ahead.perp_dot(offset).atan2(ahead.dot(offset));
-            let shown = self.survey.runs[view]
-                .iter()
-                .any(|r| r.pillar == Some(index) && r.from <= bearing && bearing <= r.to);
+            let shown = skyline
+                .runs_on(index)
+                .any(|r| r.from <= bearing && bearing <= r.to);
             let column = subject.portrait.column(bearing).filter(|_| shown)?;
             Some(Painted {
                 view,
@@ -173,13 +174,13 @@ impl Forest<'_> {
                 distance: offset.length(),
             })
         };
-        passage.carved = place(met);
+        passage.carved = place(ray.at(entry.distance));
         let plane = shadow.distance + Offsets::new(shape).middle;
         let towards = way.dot(ahead);
         if towards > 0.0 {
             let t = (plane - ahead.dot(eye - subject.o)) / towards;
             passage.walls = (WALLS * way.perp_dot(ahead).abs() / towards).min(1.0);
-            passage.painted = place(eye + t * way).map(|p| (t, p));
+            passage.painted = place(ray.at(t)).map(|p| (t, p));
         }
         Some(passage)
     }

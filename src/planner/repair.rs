@@ -3,49 +3,80 @@
 //! A search first finds layouts without faults near the given one; then every change is taken back that can be, and what must move
 //! moves only as far as it must.
 
-use super::brief::{Brief, Pillar};
-use super::moves::rounded;
-use super::search::{Layout, Problem};
+use super::brief::{Brief, Pillar, rounded};
+use super::finish::{Harvest, finished};
+use super::limits::{NoLayout, binding};
+use super::planned::Planned;
+use super::posing::prepared;
+use super::search::{WARM, best_of};
+use super::start::{Start, owned};
+use super::task::{Aim, Layout, Task};
+use super::watch::Watch;
+use crate::view::View;
 
-/// Faults weigh this much more than changes.
-pub const FIRST_SOUND: f64 = 10.0;
-/// What a change costs: any at all, more if a pillar comes or goes, and every millimetre of the way.
-const CHANGE: f64 = 1.0;
-const COME_OR_GO: f64 = 0.5;
-const A_MM: f64 = 0.02;
+/// Tries of mending for each pillar, and at most.
+const MENDING: u64 = 3000;
 /// Halvings of the way by which a pillar goes back.
 const HALVINGS: usize = 12;
 
-/// How far a layout is from the given one.
-pub fn cost(brief: &Brief, pillars: &[Pillar]) -> f64 {
-    let kept = pillars.iter().filter(|p| p.given.is_some()).count();
-    let gone = (brief.given.len() - kept) as f64;
-    let of_pillar = |p: &Pillar| match p.given.map(|g| brief.given[g].at.distance(p.at)) {
-        Some(0.0) => 0.0,
-        Some(mm) => CHANGE + A_MM * mm,
-        None => CHANGE + COME_OR_GO,
+/// Mends a layout: the given pillars, none of which is better, with the fewest changes.
+///
+/// # Errors
+/// What could not be mended, and the nearest changes with which there is a layout.
+pub fn repair(views: &[View], brief: &Brief, watch: Watch) -> Result<Planned, NoLayout> {
+    (watch.progress)("eyes and models", 0.0);
+    let prepared = prepared(views, brief);
+    let task = Task {
+        brief,
+        poses: &prepared,
+        aim: Aim::Mend,
     };
-    gone * (CHANGE + COME_OR_GO) + pillars.iter().map(of_pillar).sum::<f64>()
+    let poses = vec![0; views.len()];
+    let pillars = owned(&task.subjects(&poses), brief);
+    let given = task.layout(pillars, poses);
+    let tries = brief.tries.min(MENDING * (1 + brief.given.len() as u64));
+    let begun = Start {
+        pillars: given.pillars.clone(),
+        ..Start::default()
+    };
+    let (layout, chains) = if given.is_sound() {
+        (given, Vec::new())
+    } else {
+        let chain = best_of(&task, &given, tries, WARM, watch, ("mending", [0.05, 0.8]));
+        if !chain.best.is_sound() {
+            return Err(binding(views, brief, begun, chain.best.survey.faults));
+        }
+        (pruned(&task, chain.best.clone()), vec![chain])
+    };
+    let harvest = Harvest {
+        views,
+        task: &task,
+        start: begun,
+        layout,
+        chains,
+        aside: Vec::new(),
+    };
+    Ok(finished(harvest))
 }
 
 /// Takes back every change that can be taken back, the shortest ways first, and then shortens what is left.
-pub fn pruned(problem: &Problem, layout: Layout) -> Layout {
+fn pruned(task: &Task, layout: Layout) -> Layout {
     let mut best = layout;
-    for _ in 0..problem.brief.given.len() + best.pillars.len() {
-        let Some(next) = candidates(problem, &best).into_iter().find_map(|pillars| {
-            let next = problem.layout(pillars, best.poses.clone());
+    for _ in 0..task.brief.given.len() + best.pillars.len() {
+        let Some(next) = candidates(task, &best).into_iter().find_map(|pillars| {
+            let next = task.layout(pillars, best.poses.clone());
             (next.is_sound() && next.energy < best.energy).then_some(next)
         }) else {
             break;
         };
         best = next;
     }
-    shortened(problem, best)
+    shortened(task, best)
 }
 
 /// The layout with one change taken back, in the order of what that saves least... to most.
-fn candidates(problem: &Problem, layout: &Layout) -> Vec<Vec<Pillar>> {
-    let given = &problem.brief.given;
+fn candidates(task: &Task, layout: &Layout) -> Vec<Vec<Pillar>> {
+    let given = &task.brief.given;
     let mut list: Vec<(f64, Vec<Pillar>)> = Vec::new();
     for (i, pillar) in layout.pillars.iter().enumerate() {
         let mut pillars = layout.pillars.clone();
@@ -79,10 +110,10 @@ fn candidates(problem: &Problem, layout: &Layout) -> Vec<Vec<Pillar>> {
 }
 
 /// Every moved pillar goes back towards its place as far as nothing is wrong.
-fn shortened(problem: &Problem, layout: Layout) -> Layout {
+fn shortened(task: &Task, layout: Layout) -> Layout {
     let mut best = layout;
     for i in 0..best.pillars.len() {
-        let Some(home) = best.pillars[i].given.map(|g| problem.brief.given[g].at) else {
+        let Some(home) = best.pillars[i].given.map(|g| task.brief.given[g].at) else {
             continue;
         };
         let away = best.pillars[i].at;
@@ -91,7 +122,7 @@ fn shortened(problem: &Problem, layout: Layout) -> Layout {
             let share = (back + out) / 2.0;
             let mut pillars = best.pillars.clone();
             pillars[i].at = rounded(home.lerp(away, share));
-            let next = problem.layout(pillars, best.poses.clone());
+            let next = task.layout(pillars, best.poses.clone());
             if next.is_sound() && next.energy <= best.energy {
                 (out, best) = (share, next);
             } else {

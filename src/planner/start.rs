@@ -9,13 +9,12 @@
 //! Where hulls meet it is not said that no layout exists: pillars may cross into each other's regions. But the strips then tell
 //! what is in the way and by how much.
 
-use super::brief::{Brief, Pillar};
+use super::brief::{Brief, Pillar, rounded};
 use super::convex::{Parting, clipped, part};
-use super::moves::rounded;
-use super::skyline::Shadow;
 use super::subject::Subject;
-use super::survey::{Fault, Kind, Survey};
+use super::survey::{Fault, FaultKind, Survey, reach_of};
 use crate::geom::hull;
+use crate::horizon::{Run, Shadow};
 use glam::DVec2;
 
 /// Steps in which a pillar is pushed away from its eye until it has room, millimetres.
@@ -99,8 +98,8 @@ pub fn owned(subjects: &[&Subject], brief: &Brief) -> Vec<Pillar> {
     for (i, pillar) in pillars.iter_mut().enumerate() {
         pillar.given = Some(i);
         let seen = |v: usize| -> f64 {
-            let own = survey.runs[v].iter().filter(|r| r.pillar == Some(i));
-            own.map(|r| r.to - r.from).sum::<f64>() * survey.shadows[v][i].distance
+            let skyline = &survey.skylines[v];
+            skyline.runs_on(i).map(Run::width).sum::<f64>() * skyline.shadows[i].distance
         };
         let most = (0..subjects.len())
             .map(|v| (seen(v), v))
@@ -113,17 +112,17 @@ pub fn owned(subjects: &[&Subject], brief: &Brief) -> Vec<Pillar> {
 
 /// The row of one view, as far as it got.
 #[derive(Default)]
-struct Row {
+struct Palisade {
     pillars: Vec<Pillar>,
     stuck: Option<Stuck>,
 }
 
 /// Of the rows with [`LEADS_MM`] the whole one that stands nearest to its eye; or else the one that got farthest.
-fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Row {
+fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Palisade {
     let rows = LEADS_MM
         .iter()
         .map(|lead| row_from(subject, view, brief, given, *lead));
-    let depth = |row: &Row| {
+    let depth = |row: &Palisade| {
         let distances = row.pillars.iter().map(|p| p.at.distance(subject.o));
         match row.stuck {
             None => (false, distances.fold(0.0, f64::max)),
@@ -141,8 +140,14 @@ fn row(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar]) -> Row {
 }
 
 /// A row that begins `lead` millimetres before the models do.
-fn row_from(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar], lead: f64) -> Row {
-    let mut row = Row::default();
+fn row_from(
+    subject: &Subject,
+    view: usize,
+    brief: &Brief,
+    given: &[Pillar],
+    lead: f64,
+) -> Palisade {
+    let mut row = Palisade::default();
     let distance = brief.region.middle().distance(subject.o);
     for [a, b] in subject.spans.iter().copied() {
         let mut covered = a - lead / distance;
@@ -155,7 +160,7 @@ fn row_from(subject: &Subject, view: usize, brief: &Brief, given: &[Pillar], lea
                         at: fault.at,
                         fault,
                     };
-                    return Row {
+                    return Palisade {
                         stuck: Some(stuck),
                         ..row
                     };
@@ -198,7 +203,7 @@ fn next(
             let fault = worst_fault(subject, view, brief, given, row, pillar);
             match fault {
                 None => {
-                    let shadow = Shadow::new(subject, &pillar, &brief.shapes[shape]);
+                    let shadow = subject.shadow(&pillar, &brief.shapes[shape]);
                     return Ok((pillar, shadow));
                 }
                 Some(fault) if best.is_none_or(|b| misfit(&fault) < misfit(&b)) => {
@@ -209,7 +214,7 @@ fn next(
         }
     }
     let nowhere = Fault {
-        kind: Kind::Outside,
+        kind: FaultKind::Outside,
         view: Some(view),
         pillars: [None, None],
         mm: 0.0,
@@ -220,7 +225,7 @@ fn next(
 
 /// How little a place fits: outside of the region is told of only if no place is inside.
 fn misfit(fault: &Fault) -> (bool, f64) {
-    (fault.kind == Kind::Outside, fault.mm)
+    (fault.kind == FaultKind::Outside, fault.mm)
 }
 
 /// The pillar at this distance whose shadow begins before `covered`, by an overlap that is enough on pillars at `nearest` too.
@@ -241,7 +246,7 @@ fn covering(
     };
     // A profile that is no circle changes its shadow a little as it goes round the eye.
     for _ in 0..2 {
-        let shadow = Shadow::new(subject, &pillar, &brief.shapes[shape]);
+        let shadow = subject.shadow(&pillar, &brief.shapes[shape]);
         let from = covered - AMPLE * brief.care.overlap / nearest;
         pillar.at = rounded(subject.point(shadow.middle + from - shadow.from, distance));
     }
@@ -262,7 +267,7 @@ fn worst_fault(
         .outside(pillar.at, brief.shapes[pillar.shape].reach);
     if outside > 0.0 {
         return Some(Fault {
-            kind: Kind::Outside,
+            kind: FaultKind::Outside,
             view: Some(view),
             pillars: [None, None],
             mm: outside,
@@ -285,7 +290,11 @@ fn worst_fault(
     let counts = |f: &&Fault| {
         matches!(
             f.kind,
-            Kind::Fin | Kind::Tight | Kind::Ends | Kind::Open | Kind::Narrow
+            FaultKind::Fin
+                | FaultKind::Tight
+                | FaultKind::Ends
+                | FaultKind::Open
+                | FaultKind::Narrow
         )
     };
     survey
@@ -301,7 +310,7 @@ fn hull_of(subject: &Subject, brief: &Brief, pillars: &[Pillar]) -> Vec<DVec2> {
     let mut points = vec![subject.o];
     for pillar in pillars {
         let shape = &brief.shapes[pillar.shape];
-        let [near, _] = super::survey::reach_of(&Shadow::new(subject, pillar, shape), shape);
+        let [near, _] = reach_of(&subject.shadow(pillar, shape), shape);
         let distance = pillar.at.distance(subject.o);
         let toward = (subject.o - pillar.at) / distance;
         for p in &shape.profile {
@@ -317,9 +326,9 @@ fn hull_of(subject: &Subject, brief: &Brief, pillars: &[Pillar]) -> Vec<DVec2> {
 /// What the strips between all pairs leave to each view.
 fn regions(subjects: &[&Subject], partings: &[(usize, usize, Parting)]) -> Vec<Vec<DVec2>> {
     let far = subjects.iter().map(|s| s.o.length()).fold(1.0, f64::max) * AROUND;
-    let whole = [(-far, -far), (far, -far), (far, far), (-far, far)].map(DVec2::from);
+    let square = [(-far, -far), (far, -far), (far, far), (-far, far)].map(DVec2::from);
     let region = |view: usize| {
-        partings.iter().fold(whole.to_vec(), |polygon, (a, b, p)| {
+        partings.iter().fold(square.to_vec(), |polygon, (a, b, p)| {
             if *a == view {
                 clipped(&polygon, p.normal, p.offset)
             } else if *b == view {

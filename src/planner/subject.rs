@@ -4,8 +4,9 @@
 //! Directions in plan are *bearings*: radians from the direction in which the eye looks, counter-clockwise from above.
 //! Slopes are heights over horizontal distances.
 
-use super::brief::Shape;
+use super::brief::{Pillar, Shape};
 use crate::bvh::Bvh;
+use crate::horizon::{Shadow, Viewpoint, turn};
 use crate::mesh::TriMesh;
 use crate::view::View;
 use glam::{DVec2, DVec3, Vec3};
@@ -20,11 +21,6 @@ const PORTRAIT: [usize; 2] = [160, 160];
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Room that rays keep from the ends of pillars, millimetres.
 const END_ROOM_MM: f64 = 0.3;
-
-/// The angle from one direction to another, radians, counter-clockwise, between -pi and pi.
-pub fn turn(from: DVec2, to: DVec2) -> f64 {
-    from.perp_dot(to).atan2(from.dot(to))
-}
 
 /// What one eye sees of its models, by bearing and slope.
 #[derive(Clone, Debug)]
@@ -107,7 +103,10 @@ impl Subject {
                 .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0),
             width: 0.0,
         };
-        subject.spans = subject.spans_of(view);
+        let bodies = view.models.iter().map(|m| &m.mesh.vertices);
+        subject.spans = subject
+            .viewpoint()
+            .spans(bodies.map(|b| b.iter().map(|v| v.truncate())));
         let across = ahead.perp();
         let along = target.vertices.iter().map(|v| v.truncate().dot(across));
         let (lo, hi) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
@@ -133,16 +132,29 @@ impl Subject {
         }
     }
 
+    /// The eye in plan. One at infinity stands [very far away](crate::geom::FAR_MM) in plans too.
+    pub fn viewpoint(&self) -> Viewpoint {
+        Viewpoint::At {
+            place: self.o,
+            ahead: self.ahead,
+        }
+    }
+
     pub fn bearing(&self, p: DVec2) -> f64 {
-        turn(self.ahead, p - self.o)
+        self.viewpoint().bearing(p)
     }
 
     pub fn way(&self, bearing: f64) -> DVec2 {
-        DVec2::from_angle(bearing).rotate(self.ahead)
+        self.viewpoint().ray(bearing).way
     }
 
     pub fn point(&self, bearing: f64, distance: f64) -> DVec2 {
-        self.o + distance * self.way(bearing)
+        self.viewpoint().ray(bearing).at(distance)
+    }
+
+    /// The pillar as the eye sees it with nothing else in the way.
+    pub fn shadow(&self, pillar: &Pillar, shape: &Shape) -> Shadow {
+        Shadow::new(&self.viewpoint(), &shape.obstacle(pillar.at))
     }
 
     /// By how much the rays between two bearings miss a pillar of this height at horizontal distances `near..far`, above or
@@ -156,12 +168,13 @@ impl Subject {
         })
     }
 
-    /// Whether all rays between two bearings pass above a pillar of this height at horizontal distances up to `far`.
-    pub fn passes_over(&self, from: f64, to: f64, far: f64, top: f64) -> bool {
+    /// Whether all rays to the models pass above a pillar of this shape and shadow.
+    pub fn passes_over(&self, shadow: &Shadow, shape: &Shape) -> bool {
+        let (far, top) = (shadow.distance + shape.reach, shape.heights[1]);
         // Mostly the eye is no higher than the pillars.
         self.eye.z > top
             && self
-                .columns(from, to)
+                .columns(shadow.from, shadow.to)
                 .all(|[low, _]| self.eye.z + low * far > top + END_ROOM_MM)
     }
 
@@ -180,34 +193,6 @@ impl Subject {
         let last = (column(to).ceil().max(0.0) as usize).min(COLUMNS);
         let of_columns = self.slopes.get(first.min(last)..last).unwrap_or(&[]);
         of_columns.iter().copied().filter(|s| s[0] <= s[1])
-    }
-
-    fn spans_of(&self, view: &View) -> Vec<[f64; 2]> {
-        let mut spans: Vec<[f64; 2]> = Vec::new();
-        for model in &view.models {
-            let bearings = model
-                .mesh
-                .vertices
-                .iter()
-                .map(|v| self.bearing(v.truncate()));
-            let (lo, hi) = bearings
-                .filter(|b| b.is_finite())
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), b| {
-                    (l.min(b), h.max(b))
-                });
-            if lo < hi {
-                spans.push([lo, hi]);
-            }
-        }
-        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut merged: Vec<[f64; 2]> = Vec::new();
-        for span in spans {
-            match merged.last_mut() {
-                Some(last) if span[0] <= last[1] => last[1] = last[1].max(span[1]),
-                _ => merged.push(span),
-            }
-        }
-        merged
     }
 
     /// Extremes over each column lie at vertices or where edges cross the borders of columns.

@@ -1,7 +1,7 @@
 //! What stands under the three panels of a view's picture.
 
-use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::render::heat::scale;
 use crate::render::inks::{QUIET, TEXT};
 use crate::render::likeness::Likeness;
@@ -29,14 +29,14 @@ pub(super) fn captions(
     let head = TextStyle {
         size: 4.6 * unit,
         ink: TEXT,
-        face: Face::Regular,
-        anchor: Anchor::Start,
+        face: Typeface::Regular,
+        anchor: Align::Start,
         halo: None,
     };
     let body = TextStyle {
         size: 3.4 * unit,
         ink: QUIET,
-        face: Face::Light,
+        face: Typeface::Light,
         ..head
     };
     // Below the scale's figures, which the last column's second line passes under.

@@ -1,7 +1,7 @@
 //! The scale of colours for errors of normals.
 
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::Typeface;
 use crate::render::inks::QUIET;
 use crate::render::shading::Rgb;
 use glam::DVec2;
@@ -46,8 +46,8 @@ pub(super) fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
     let style = TextStyle {
         size: 2.8 * unit,
         ink: QUIET,
-        face: Face::Light,
-        anchor: Anchor::Middle,
+        face: Typeface::Light,
+        anchor: Align::Middle,
         halo: None,
     };
     for (share, text) in [
@@ -57,9 +57,9 @@ pub(super) fn scale(drawing: &mut Drawing, at: DVec2, unit: f64) {
         (1.0, "45° +"),
     ] {
         let anchor = match share {
-            0.0 => Anchor::Start,
-            1.0 => Anchor::End,
-            _ => Anchor::Middle,
+            0.0 => Align::Start,
+            1.0 => Align::End,
+            _ => Align::Middle,
         };
         let x = at.x + share * length;
         drawing.polyline(

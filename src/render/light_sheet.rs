@@ -1,7 +1,7 @@
 //! The contact sheet of a view in several lights: a column for each light, the model above the forest, figures below.
 
-use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::raster;
 use crate::render::caster::{DARK, SPAN};
 use crate::render::inks::{QUIET, TEXT};
@@ -88,14 +88,14 @@ fn captions(drawing: &mut Drawing, view: &View, figures: &[LightLikeness]) {
     let head = TextStyle {
         size: 13.0,
         ink: TEXT,
-        face: Face::Regular,
-        anchor: Anchor::Start,
+        face: Typeface::Regular,
+        anchor: Align::Start,
         halo: None,
     };
     let body = TextStyle {
         size: 10.0,
         ink: QUIET,
-        face: Face::Light,
+        face: Typeface::Light,
         ..head
     };
     let mut put = |x: usize, y: usize, text: &str, style: TextStyle, most: usize| {

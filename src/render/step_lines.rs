@@ -1,6 +1,6 @@
 //! The lines along which a surface was torn, over a picture of what its eye sees of it, and what the caption says of them.
 
-use crate::diagram::drawing::{Drawing, Ink, Pen, Shape, Step};
+use crate::diagram::drawing::{Drawing, Ink, Mark, Pen, Verb};
 use crate::geom::ImagePlane;
 use crate::render::shading::mixed;
 use crate::steps::{StepLine, StepSummary};
@@ -46,19 +46,19 @@ impl Panel {
 /// Draws the lines, the darker the higher they are beside the highest one.
 pub(super) fn step_lines(drawing: &mut Drawing, lines: &[StepLine], panel: Panel) {
     let highest = lines.iter().map(height).fold(0.0, f64::max);
-    let mut shades: [Vec<Step>; SHADES] = Default::default();
+    let mut shades: [Vec<Verb>; SHADES] = Default::default();
     for line in lines {
         let Some([a, b]) = panel.place(line) else {
             continue;
         };
         // A height that is no number is drawn like none.
         let shade = (SHADES as f64 * height(line) / highest) as usize;
-        shades[shade.min(SHADES - 1)].extend([Step::Move(a), Step::Line(b)]);
+        shades[shade.min(SHADES - 1)].extend([Verb::Move(a), Verb::Line(b)]);
     }
     let width = (WIDTH * panel.side / 100.0).max(LEAST_WIDTH_PX);
     for (k, steps) in shades.into_iter().enumerate() {
         let colour = mixed(LOW, HIGH, k as f64 / (SHADES - 1) as f64);
-        drawing.shapes.push(Shape {
+        drawing.shapes.push(Mark {
             steps,
             fill: None,
             pen: Some(Pen::new(Ink::new(colour), width)),

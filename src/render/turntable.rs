@@ -6,8 +6,8 @@
 //! pictures; the result does not depend on the thread count.
 
 use crate::bvh::Bvh;
-use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, TextStyle};
+use crate::diagram::lettering::Typeface;
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
 use crate::mesh::TriMesh;
@@ -134,7 +134,7 @@ pub fn turntable(view: &View, solid: &TriMesh, bvh: &Bvh, size_px: u32) -> Vec<u
         let left = gap + k * (wide + gap);
         raster::put_square(&mut pixmap, (left, gap), wide, pixels.iter().map(|p| p[0]));
         let angle = format!("{:.0}°", angle_deg(k)).replace('-', "\u{2212}");
-        let style = TextStyle::new(5.0 * unit, Face::Regular, TEXT, Anchor::Middle);
+        let style = TextStyle::new(5.0 * unit, Typeface::Regular, TEXT, Align::Middle);
         let base = DVec2::new(
             left as f64 + wide as f64 / 2.0,
             (high + gap) as f64 + 5.5 * unit,
@@ -142,7 +142,7 @@ pub fn turntable(view: &View, solid: &TriMesh, bvh: &Bvh, size_px: u32) -> Vec<u
         drawing.text(base, &angle, style.fitting(&angle, wide as f64));
     }
     let note = note(view, &table);
-    let style = TextStyle::new(4.2 * unit, Face::Light, QUIET, Anchor::Middle);
+    let style = TextStyle::new(4.2 * unit, Typeface::Light, QUIET, Align::Middle);
     let below = DVec2::new(across as f64 / 2.0, (high + gap) as f64 + 11.5 * unit);
     drawing.text(
         below,

@@ -3,7 +3,9 @@
 use crate::golden;
 use crate::shapes::{self, base, grove, pillar, prism, ring, view};
 use glam::{DMat4, DVec2, DVec3};
-use pillarforest::diagram::{Sight, plan};
+use pillarforest::diagram::plan;
+use pillarforest::diagram::vista::{Grain, Vista, horizon, obstacles};
+use pillarforest::horizon::Horizon;
 use pillarforest::support::{Datum, Support, SupportKind};
 use pillarforest::view::View;
 use proptest::prelude::*;
@@ -33,26 +35,32 @@ fn block(lo: DVec2, hi: DVec2) -> Support {
     support
 }
 
+/// What the view's eye meets, and how that is drawn.
+fn look(view: &View, supports: &[Support]) -> (Horizon, Vista) {
+    let obstacles = obstacles(supports);
+    let horizon = horizon(view, &obstacles);
+    let vista = Vista::of(&horizon, &obstacles, Grain::Step(0.01));
+    (horizon, vista)
+}
+
+fn width(horizon: &Horizon) -> f64 {
+    horizon.runs().map(|r| r.width()).sum()
+}
+
 #[test]
 fn a_wall_in_front_covers_all_and_nothing_covers_nothing() {
     let wall = block(DVec2::new(50.0, -30.0), DVec2::new(52.0, 30.0));
-    let sight = Sight::new(&plate_view(), &[wall]);
-    assert!((sight.coverage() - 1.0).abs() < 1e-6);
-    assert!((sight.width() - 2.0 * 0.1f64.atan()).abs() < 1e-6);
-    assert_eq!(Sight::new(&plate_view(), &[]).coverage(), 0.0);
+    let (horizon, _) = look(&plate_view(), &[wall]);
+    assert!((horizon.coverage() - 1.0).abs() < 1e-6);
+    assert!((width(&horizon) - 2.0 * 0.1f64.atan()).abs() < 1e-6);
+    assert_eq!(look(&plate_view(), &[]).0.coverage(), 0.0);
 }
 
 #[test]
 fn half_a_wall_covers_half() {
-    let sight = Sight::new(
-        &plate_view(),
-        &[block(DVec2::new(50.0, 0.0), DVec2::new(52.0, 30.0))],
-    );
-    assert!(
-        (sight.coverage() - 0.5).abs() < 1e-6,
-        "{}",
-        sight.coverage()
-    );
+    let half = block(DVec2::new(50.0, 0.0), DVec2::new(52.0, 30.0));
+    let coverage = look(&plate_view(), &[half]).0.coverage();
+    assert!((coverage - 0.5).abs() < 1e-6, "{coverage}");
 }
 
 #[test]
@@ -61,17 +69,17 @@ fn what_stands_behind_is_not_seen() {
         block(DVec2::new(80.0, -30.0), DVec2::new(82.0, 30.0)),
         block(DVec2::new(50.0, -30.0), DVec2::new(52.0, 30.0)),
     ];
-    let sight = Sight::new(&plate_view(), &walls);
-    assert_eq!(sight.angle_of(0), 0.0);
-    assert!(sight.angle_of(1) > 0.0);
+    let (horizon, _) = look(&plate_view(), &walls);
+    assert_eq!(horizon.angle_of(0), 0.0);
+    assert!(horizon.angle_of(1) > 0.0);
 }
 
 #[test]
 fn the_room_of_a_relief_lies_between_its_front_and_back_planes() {
     let supports = [pillar(DVec2::new(60.0, 1.0), 4.0, 64, Datum::Plane)];
-    let sight = Sight::new(&plate_view(), &supports);
-    let run = sight.runs().find(|r| r.support == Some(0)).unwrap();
-    let (room, line) = sight.constrained(run, &supports).unwrap();
+    let (_, vista) = look(&plate_view(), &supports);
+    let sector = vista.sectors().find(|s| s.obstacle == Some(0)).unwrap();
+    let (room, line) = vista.constrained(sector, &supports).unwrap();
     let axis = DVec2::new(60.0, 1.0);
     let depth = |p: &DVec2| (*p - axis).dot(axis.normalize());
     let (front, back) = room.split_at(room.len() / 2);
@@ -133,29 +141,29 @@ proptest! {
         // One pillar to a cell of a grid: they never touch.
         let place = |k: usize, u: f64, v: f64| DVec2::new(20.0 + 8.0 * (k % 8) as f64 + 2.9 * u, -18.0 + 8.0 * (k / 8) as f64 + 2.9 * v);
         let supports: Vec<Support> = cells.iter().enumerate().map(|(k, &(u, v, r, n))| pillar(place(k, u, v), r, n, Datum::Plane)).collect();
-        let sight = Sight::new(&plate_view(), &supports);
+        let (horizon, vista) = look(&plate_view(), &supports);
         let whole = 2.0 * 0.1f64.atan();
-        prop_assert!((sight.width() - whole).abs() < 1e-5);
+        prop_assert!((width(&horizon) - whole).abs() < 1e-5);
         for k in 0..200 {
             let angle = whole * ((f64::from(k) + 0.37) / 200.0 - 0.5);
             let true_distance = nearest(&supports, DVec2::ZERO, DVec2::from_angle(angle));
-            let run = sight.runs().find(|r| r.hits[0].0 <= angle && angle <= r.hits.last().unwrap().0);
+            let run = vista.sectors().find(|r| r.hits[0].0 <= angle && angle <= r.hits.last().unwrap().0);
             // None only within a nudge of a tangent.
             let Some(run) = run else { continue };
-            prop_assert_eq!(run.support.is_some(), true_distance.is_finite());
+            prop_assert_eq!(run.obstacle.is_some(), true_distance.is_finite());
             let next = run.hits.iter().position(|h| h.0 >= angle).unwrap().max(1);
             let (a, b) = (run.hits[next - 1], run.hits[next]);
-            if run.support.is_some() {
+            if run.obstacle.is_some() {
                 // Between neighbouring hits the outline is straight.
-                let p = sight.point(a.0, a.1);
-                let edge = sight.point(b.0, b.1) - p;
+                let p = vista.point(a.0, a.1);
+                let edge = vista.point(b.0, b.1) - p;
                 let t = p.perp_dot(edge) / DVec2::from_angle(angle).perp_dot(edge);
                 prop_assert!((t - true_distance).abs() < 1e-5 * true_distance, "{} {}", t, true_distance);
             }
         }
         let (turned_view, turned_supports) = turned(&plate_view(), &supports, angle);
-        let other = Sight::new(&turned_view, &turned_supports);
-        prop_assert!((other.coverage() - sight.coverage()).abs() < 1e-6);
+        let (other, _) = look(&turned_view, &turned_supports);
+        prop_assert!((other.coverage() - horizon.coverage()).abs() < 1e-6);
     }
 }
 

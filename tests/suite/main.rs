@@ -16,6 +16,7 @@ mod files;
 mod formats;
 mod golden;
 mod guarantees;
+mod horizon;
 mod hostile;
 mod lights;
 mod meshes;

@@ -6,11 +6,12 @@ use pillarforest::geom::hull;
 use pillarforest::mesh::TriMesh;
 use pillarforest::planner::convex::{clipped, part};
 use pillarforest::planner::{
-    Adjustment, Brief, Care, Ended, Freedom, Kind, Matters, Pillar, Planned, Region, Shape,
+    Adjustment, Brief, Care, Ended, FaultKind, Freedom, Matters, Pillar, Planned, Region, Shape,
     Subject, Survey, Watch, plan, repair, start,
 };
 use pillarforest::support::{Datum, Layer};
 use pillarforest::view::View;
+use pillarforest::words::planner::no_layout;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::f64::consts::TAU;
@@ -190,22 +191,23 @@ fn what_eyes_meet_agrees_with_rays() {
                 let bearing = a + (b - a) * (f64::from(k) + 0.5) / f64::from(n);
                 let found =
                     first_pillar(subject.o, subject.way(bearing), &pillars, &brief.shapes[0]);
-                let run = survey.runs[v]
+                let run = survey.skylines[v]
+                    .runs
                     .iter()
                     .find(|r| r.from <= bearing && bearing <= r.to)
                     .unwrap();
                 // Circles are a hair larger than their polygons.
                 let edge = (bearing - run.from).min(run.to - bearing) * 400.0;
                 assert!(
-                    run.pillar == found || edge < 0.05,
+                    run.obstacle == found || edge < 0.05,
                     "{:?} {found:?} {edge}",
-                    run.pillar
+                    run.obstacle
                 );
                 uncovered += f64::from(u8::from(found.is_none()));
                 foreign += f64::from(u8::from(found.is_some_and(|i| pillars[i].owner != Some(v))));
             }
             let distance = (subject.middle.truncate() - subject.o).length();
-            let of = |kind: Kind| {
+            let of = |kind: FaultKind| {
                 survey
                     .faults
                     .iter()
@@ -213,12 +215,55 @@ fn what_eyes_meet_agrees_with_rays() {
                     .count()
             };
             assert_eq!(
-                of(Kind::Uncovered) > 0,
+                of(FaultKind::Uncovered) > 0,
                 uncovered * (b - a) * distance / f64::from(n) > 0.06,
                 "{uncovered}"
             );
-            assert_eq!(of(Kind::Foreign) > 0, foreign > 0.0);
+            assert_eq!(of(FaultKind::Foreign) > 0, foreign > 0.0);
         }
+    }
+}
+
+#[test]
+fn a_survey_that_follows_changes_is_the_one_made_anew() {
+    let mut rng = Pcg64Mcg::seed_from_u64(23);
+    let views = uneven(&mut rng, 3, 60.0);
+    let all = subjects(&views);
+    let all: Vec<&Subject> = all.iter().collect();
+    let mut square = round(4.0);
+    square.profile = shapes::ring(DVec2::ZERO, 4.0, 4);
+    square.round = false;
+    let brief = Brief {
+        shapes: vec![round(4.0), square],
+        allowed: 2,
+        ..brief(3, disc(75.0), 0)
+    };
+    let random = |rng: &mut Pcg64Mcg| Pillar {
+        at: DVec2::new(rng.random_range(-70.0..70.0), rng.random_range(-70.0..70.0)),
+        shape: rng.random_range(0..2),
+        owner: Some(rng.random_range(0..3)),
+        fixed: false,
+        given: None,
+    };
+    let mut pillars: Vec<Pillar> = (0..30).map(|_| random(&mut rng)).collect();
+    let mut survey = Survey::new(&all, &brief, &pillars);
+    for _ in 0..60 {
+        let old = pillars.clone();
+        for _ in 0..rng.random_range(1..4) {
+            let i = rng.random_range(0..pillars.len());
+            match rng.random_range(0..4) {
+                0 => pillars.push(random(&mut rng)),
+                1 => _ = pillars.swap_remove(i),
+                2 => pillars[i].at += DVec2::new(rng.random_range(-1.0..1.0), 0.3),
+                _ => pillars[i] = random(&mut rng),
+            }
+        }
+        let most = old.len().max(pillars.len());
+        let changed: Vec<usize> = (0..most)
+            .filter(|i| old.get(*i) != pillars.get(*i))
+            .collect();
+        survey = survey.after(&all, &brief, &pillars, &changed);
+        assert_eq!(survey, Survey::new(&all, &brief, &pillars));
     }
 }
 
@@ -461,7 +506,14 @@ fn models_change_only_within_their_limits() {
 fn eyes_in_each_others_way_are_told_with_what_would_do() {
     let near = |n: usize, y: f64| view(n, DVec3::new(250.0, y, 48.0), block(60.0, 50.0));
     let views = [near(0, 0.0), near(1, 25.0)];
-    let problems = plan(&views, &brief(2, disc(71.0), 500), PATIENT).unwrap_err();
+    let found = plan(&views, &brief(2, disc(71.0), 500), PATIENT).unwrap_err();
+    assert!(
+        found
+            .clashes
+            .iter()
+            .all(|c| c.views == [0, 1] && c.mm > 0.0)
+    );
+    let problems = no_layout(&views, &found);
     let text = &problems[0].message;
     assert!(
         text.contains("\"v0\"") && text.contains("\"v1\"") && text.contains(" mm"),
@@ -470,7 +522,8 @@ fn eyes_in_each_others_way_are_told_with_what_would_do() {
     assert!(!problems[0].help.is_empty());
     // A model too high for the pillars.
     let tall = [view(0, DVec3::new(250.0, 0.0, 48.0), block(30.0, 130.0))];
-    let problems = plan(&tall, &brief(1, disc(71.0), 500), PATIENT).unwrap_err();
+    let found = plan(&tall, &brief(1, disc(71.0), 500), PATIENT).unwrap_err();
+    let problems = no_layout(&tall, &found);
     assert!(
         problems[0].message.contains("beyond the ends"),
         "{}",

@@ -1,9 +1,9 @@
 //! Pictures of plans: the sheet, the trade-off, the search as a film and as a strip.
 
-use crate::plans::{Case, creatures, crowd, mended, nothing};
+use crate::plans::{Case, creatures, crowd, mended, nothing, tell};
 use glam::DVec2;
 use pillarforest::diagram::{Plan, planning};
-use pillarforest::planner::{Frame, Pillar, Trade};
+use pillarforest::planner::{Pillar, Trade};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
@@ -80,11 +80,13 @@ fn elements(svg: &str) -> Vec<Element> {
 }
 
 fn sheet(case: &Case) -> Plan {
-    planning::sheet("A <title> & more", &case.views, &case.brief, &case.planned)
+    let (plan, tell) = ((&case.brief, &case.planned), tell(&case.views));
+    planning::sheet("A <title> & more", &case.views, plan, &tell)
 }
 
 fn strip(case: &Case) -> Plan {
-    planning::strip("A <title> & more", &case.views, &case.brief, &case.planned)
+    let (plan, tell) = ((&case.brief, &case.planned), tell(&case.views));
+    planning::strip("A <title> & more", &case.views, plan, &tell)
 }
 
 fn trade(case: &Case) -> Plan {
@@ -92,7 +94,8 @@ fn trade(case: &Case) -> Plan {
 }
 
 fn film(case: &Case) -> String {
-    planning::animation("A <title> & more", &case.views, &case.brief, &case.planned)
+    let (plan, tell) = ((&case.brief, &case.planned), tell(&case.views));
+    planning::animation("A <title> & more", &case.views, plan, &tell)
 }
 
 /// The colour of a view's pillars: its own, three tenths of white in it.
@@ -231,15 +234,17 @@ fn every_fault_is_marked_on_its_map() {
             .filter(|e| !e.get("aria-label").is_empty())
             .collect();
         let texts: Vec<&str> = crosses.iter().map(|e| e.get("aria-label")).collect();
-        let marks = first.marks.iter().chain(&last.marks);
+        let tell = tell(&case.views);
+        let [of_first, of_last] = [first, last].map(&tell);
+        let marks = of_first.iter().chain(&of_last);
         let wanted: Vec<&str> = marks.map(|m| m.1.as_str()).collect();
         assert!(!wanted.is_empty());
         assert_eq!(texts, wanted);
-        for (frame, crosses) in [
-            (first, &crosses[..first.marks.len()]),
-            (last, &crosses[first.marks.len()..]),
+        for (marks, crosses) in [
+            (&of_first, &crosses[..of_first.len()]),
+            (&of_last, &crosses[of_first.len()..]),
         ] {
-            at_the_same_places(frame, crosses);
+            at_the_same_places(marks, crosses);
         }
     }
 }
@@ -259,7 +264,7 @@ fn what_meets_no_pillar_or_another_s_is_red() {
         for (v, runs) in frame.runs.iter().enumerate() {
             let met = || {
                 runs.iter()
-                    .map(|r| r.pillar.map(|i| frame.pillars[i].owner))
+                    .map(|r| r.obstacle.map(|i| frame.pillars[i].owner))
             };
             no_pillar += met().filter(Option::is_none).count();
             another_s += met().flatten().filter(|o| *o != Some(v)).count();
@@ -272,13 +277,13 @@ fn what_meets_no_pillar_or_another_s_is_red() {
 }
 
 /// Crosses lie to each other as the marks do.
-fn at_the_same_places(frame: &Frame, crosses: &[&Element]) {
-    let Some(((first, _), cross)) = frame.marks.first().zip(crosses.first()) else {
+fn at_the_same_places(marks: &[(DVec2, String)], crosses: &[&Element]) {
+    let Some(((first, _), cross)) = marks.first().zip(crosses.first()) else {
         return;
     };
     let scale = |k: usize| {
         let on_page = crosses[k].middle() - cross.middle();
-        (frame.marks[k].0 - *first).length() / on_page.length()
+        (marks[k].0 - *first).length() / on_page.length()
     };
     let scales: Vec<f64> = (1..crosses.len())
         .map(scale)
@@ -482,10 +487,11 @@ fn odd_plans_have_pictures_too() {
             brief,
             planned,
         } = &case;
+        let (plan, tell) = ((brief, planned), tell(views));
         let pages = [
-            planning::sheet(&title, views, brief, planned),
+            planning::sheet(&title, views, plan, &tell),
             planning::trade(&title, brief, planned),
-            planning::strip(&title, views, brief, planned),
+            planning::strip(&title, views, plan, &tell),
         ];
         for page in pages {
             let svg = page.svg();
@@ -493,7 +499,7 @@ fn odd_plans_have_pictures_too() {
             inside(&elements(&svg));
             assert!(tiny_skia::Pixmap::decode_png(&page.png(200)).is_ok());
         }
-        let film = planning::animation(&title, views, brief, planned);
+        let film = planning::animation(&title, views, plan, &tell);
         assert!(!film.contains("NaN") && !film.contains("inf\""));
         elements(&film);
     }

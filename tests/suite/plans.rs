@@ -40,13 +40,7 @@ fn make_creatures() -> Case {
             at: p.at + shake * DVec2::from_angle(2.4 * i as f64 + 0.1 * f64::from(k)),
             ..*p
         });
-        frame(
-            &subjects,
-            &brief,
-            &scene.views,
-            shaken.collect(),
-            400 * k as u64,
-        )
+        frame(&subjects, &brief, shaken.collect(), 400 * k as u64)
     });
     let frames: Vec<Frame> = frames.collect();
     let worth = worth(&scene.views, &frames[frames.len() - 1]);
@@ -155,47 +149,48 @@ fn subjects_of(views: &[View]) -> Vec<Subject> {
     views.iter().map(of).collect()
 }
 
-/// A layout with a mark wherever an eye meets none of its own pillars.
-fn frame(
-    subjects: &[Subject],
-    brief: &Brief,
-    views: &[View],
-    pillars: Vec<Pillar>,
-    tries: u64,
-) -> Frame {
+/// A layout as surveyed.
+fn frame(subjects: &[Subject], brief: &Brief, pillars: Vec<Pillar>, tries: u64) -> Frame {
     let all: Vec<&Subject> = subjects.iter().collect();
     let found = Survey::new(&all, brief, &pillars);
-    let mut marks = Vec::new();
-    for (v, runs) in found.runs.iter().enumerate() {
-        for run in runs {
-            let middle = (run.from + run.to) / 2.0;
-            let met = run.pillar.map(|i| pillars[i]);
-            let name = &views[v].name;
-            match met {
-                None => {
-                    let near = subjects[v].middle.truncate().distance(subjects[v].o);
-                    marks.push((
-                        subjects[v].point(middle, near),
-                        format!("{name} looks past all pillars"),
-                    ));
-                }
-                Some(p) if p.owner != Some(v) => {
-                    let whose = p.owner.map_or("nobody", |o| &views[o].name);
-                    marks.push((p.at, format!("{name} meets a pillar of {whose}")));
-                }
-                Some(_) => {}
-            }
-        }
-    }
     let rate = found.rates.iter().map(|r| r[1]).fold(0.0, f64::max);
     Frame {
         tries,
         hidden_deg: 34.0 + 16.0 * (tries as f64 / 12_000.0).sqrt(),
         tolerance_mm: UNSEEN_RAD / rate,
         pillars,
-        runs: found.runs,
+        runs: found.skylines.into_iter().map(|s| s.runs).collect(),
         faults: found.faults,
-        marks,
+    }
+}
+
+/// Tells, in place of a frame's faults, wherever an eye meets none of its own pillars.
+pub fn tell(views: &[View]) -> impl Fn(&Frame) -> Vec<(DVec2, String)> {
+    let subjects = subjects_of(views);
+    move |frame| {
+        let mut marks = Vec::new();
+        for (v, runs) in frame.runs.iter().enumerate() {
+            for run in runs {
+                let middle = (run.from + run.to) / 2.0;
+                let met = run.obstacle.map(|i| frame.pillars[i]);
+                let name = &views[v].name;
+                match met {
+                    None => {
+                        let near = subjects[v].middle.truncate().distance(subjects[v].o);
+                        marks.push((
+                            subjects[v].point(middle, near),
+                            format!("{name} looks past all pillars"),
+                        ));
+                    }
+                    Some(p) if p.owner != Some(v) => {
+                        let whose = p.owner.map_or("nobody", |o| &views[o].name);
+                        marks.push((p.at, format!("{name} meets a pillar of {whose}")));
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        marks
     }
 }
 
@@ -292,13 +287,7 @@ fn case(views: Vec<View>, brief: Brief, pillars: Vec<Pillar>, steps: u32) -> Cas
                 at: p.at + shake * DVec2::from_angle(2.4 * i as f64),
                 ..*p
             });
-            frame(
-                &subjects,
-                &brief,
-                &views,
-                shaken.collect(),
-                1000 * u64::from(k),
-            )
+            frame(&subjects, &brief, shaken.collect(), 1000 * u64::from(k))
         })
         .collect();
     let worth = worth(&views, &frames[frames.len() - 1]);
@@ -372,13 +361,7 @@ pub fn mended() -> Case {
     pillars.push(pillar(-18.0, 2.0, 1, Some(1)));
     let mut case = case(vec![far, near], brief, pillars.clone(), 0);
     let subjects: Vec<Subject> = subjects_of(&case.views);
-    let start = frame(
-        &subjects,
-        &case.brief,
-        &case.views,
-        case.brief.given.clone(),
-        0,
-    );
+    let start = frame(&subjects, &case.brief, case.brief.given.clone(), 0);
     case.planned.frames.insert(0, start);
     case.planned.regions.clear();
     case.planned.changes = vec![

@@ -9,8 +9,8 @@ use super::scenery::Map;
 use super::story::Story;
 use super::tracks::{Track, tracks};
 use super::words;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT};
 use crate::diagram::svg::{CLOSING, number, opening, push_shape};
 use crate::formats::markup::escaped;
@@ -50,7 +50,7 @@ pub fn svg(story: &Story) -> String {
     map.arc = ARC;
     film.still(|d| {
         d.rect(DVec2::ZERO, PAGE, Some(PAPER), None);
-        let head = TextStyle::new(6.4, Face::Regular, TEXT, Anchor::Start)
+        let head = TextStyle::new(6.4, Typeface::Regular, TEXT, Align::Start)
             .fitting(story.title, PAGE.x - 2.0 * MARGIN);
         d.text(DVec2::new(MARGIN, 12.0), story.title, head);
         let line = format!(
@@ -61,7 +61,7 @@ pub fn svg(story: &Story) -> String {
         d.text(
             DVec2::new(MARGIN, 18.5),
             &line,
-            TextStyle::new(3.4, Face::Light, QUIET, Anchor::Start),
+            TextStyle::new(3.4, Typeface::Light, QUIET, Align::Start),
         );
         map.ground(d);
     });
@@ -72,15 +72,18 @@ pub fn svg(story: &Story) -> String {
         film.pillar(&map, &track);
     }
     film.still(|d| map.eyes(d));
-    for (k, frame) in frames.iter().enumerate().filter(|f| !f.1.marks.is_empty()) {
-        film.only(k, |d| map.marks(d, frame, 0));
+    for (k, frame) in frames.iter().enumerate() {
+        let marks = story.marks(frame);
+        if !marks.is_empty() {
+            film.only(k, |d| map.marks(d, &marks, 0));
+        }
     }
     figures(&mut film, story, &frames);
     film.svg + CLOSING
 }
 
 /// Of the figures.
-const FIGURE: TextStyle = TextStyle::new(5.2, Face::Regular, TEXT, Anchor::Start);
+const FIGURE: TextStyle = TextStyle::new(5.2, Typeface::Regular, TEXT, Align::Start);
 
 /// The document as it grows.
 struct Film {
@@ -230,7 +233,7 @@ fn fine(x: f64) -> String {
 /// What is told below the map: name, figure of every frame, and a curve with a dot on it.
 fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
     let error = format!("forecast error {} off", words::angle(story.brief));
-    let list: [(&str, Value, Told); 4] = [
+    let list: [(&str, Gauge, Told); 4] = [
         ("tries", |f| f.tries as f64, |f| words::count(f.tries)),
         ("faults", |f| words::wrong(&f.faults), fault_figure),
         (&error, |f| f.hidden_deg, |f| words::degrees(f.hidden_deg)),
@@ -246,7 +249,7 @@ fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
     film.define_letters(&told.collect::<String>());
     for (k, (name, value, told)) in list.into_iter().enumerate() {
         let x = MARGIN + PACE * k as f64;
-        let style = TextStyle::new(3.0, Face::Light, QUIET, Anchor::Start);
+        let style = TextStyle::new(3.0, Typeface::Light, QUIET, Align::Start);
         film.still(|d| d.text(DVec2::new(x, LABELS), name, style));
         // Equal figures in a row are one.
         let texts: Vec<String> = frames.iter().map(|f| told(f)).collect();
@@ -261,7 +264,7 @@ fn figures(film: &mut Film, story: &Story, frames: &[&Frame]) {
     }
 }
 
-type Value = fn(&Frame) -> f64;
+type Gauge = fn(&Frame) -> f64;
 type Told = fn(&Frame) -> String;
 
 fn fault_figure(frame: &Frame) -> String {

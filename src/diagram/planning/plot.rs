@@ -1,8 +1,8 @@
 //! Camouflage against eye tolerance: what one costs the other.
 
 use super::words;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{HAIR, PAPER, QUIET, TEXT};
 use crate::planner::{Brief, Planned, Trade};
 use glam::DVec2;
@@ -22,13 +22,13 @@ pub fn page(title: &str, brief: &Brief, planned: &Planned) -> Drawing {
     let mut drawing = Drawing::new(PAGE);
     drawing.rect(DVec2::ZERO, PAGE, Some(PAPER), None);
     let head =
-        TextStyle::new(6.4, Face::Regular, TEXT, Anchor::Start).fitting(title, PAGE.x - 20.0);
+        TextStyle::new(6.4, Typeface::Regular, TEXT, Align::Start).fitting(title, PAGE.x - 20.0);
     drawing.text(DVec2::new(10.0, 12.0), title, head);
     let line = format!(
         "What camouflage costs: the best forecast found at every tolerance of the eye, {} layouts tried",
         words::count(planned.tries)
     );
-    let style = TextStyle::new(3.4, Face::Light, QUIET, Anchor::Start);
+    let style = TextStyle::new(3.4, Typeface::Light, QUIET, Align::Start);
     drawing.text(
         DVec2::new(10.0, 18.5),
         &line,
@@ -93,13 +93,13 @@ impl Axis {
 }
 
 /// Both axes on the page.
-struct Frame {
+struct Axes {
     x: Axis,
     y: Axis,
     area: [DVec2; 2],
 }
 
-impl Frame {
+impl Axes {
     fn place(&self, tolerance: f64, hidden: f64) -> DVec2 {
         let [lo, hi] = self.area;
         DVec2::new(
@@ -113,7 +113,7 @@ impl Frame {
 pub fn draw(drawing: &mut Drawing, area: [DVec2; 2], size: f64, brief: &Brief, planned: &Planned) {
     let finite = |t: &&Trade| t.tolerance_mm.is_finite() && t.hidden_deg.is_finite();
     let trade: Vec<Trade> = planned.trade.iter().filter(finite).copied().collect();
-    let label = TextStyle::new(size, Face::Light, QUIET, Anchor::Middle);
+    let label = TextStyle::new(size, Typeface::Light, QUIET, Align::Middle);
     if trade.is_empty() {
         let pen = Pen::new(HAIR, 0.2);
         drawing.rect(area[0], area[1], None, Some(pen));
@@ -123,7 +123,7 @@ pub fn draw(drawing: &mut Drawing, area: [DVec2; 2], size: f64, brief: &Brief, p
     let start = start(planned);
     let of =
         |value: fn(&Trade) -> f64| -> Vec<f64> { trade.iter().chain(&start).map(value).collect() };
-    let frame = Frame {
+    let frame = Axes {
         x: Axis::new(&of(|t| t.tolerance_mm), true),
         y: Axis::new(&of(|t| t.hidden_deg), false),
         area,
@@ -166,7 +166,7 @@ fn start(planned: &Planned) -> Option<Trade> {
     })
 }
 
-fn axes(drawing: &mut Drawing, frame: &Frame, label: TextStyle, brief: &Brief) {
+fn axes(drawing: &mut Drawing, frame: &Axes, label: TextStyle, brief: &Brief) {
     let [lo, hi] = frame.area;
     let hair = Pen::new(HAIR, 0.15);
     for tick in &frame.x.ticks {
@@ -185,7 +185,7 @@ fn axes(drawing: &mut Drawing, frame: &Frame, label: TextStyle, brief: &Brief) {
         drawing.text(
             at,
             &format!("{}°", plain(*tick)),
-            label.anchored(Anchor::End),
+            label.anchored(Align::End),
         );
     }
     let below = DVec2::new((lo.x + hi.x) / 2.0, hi.y + 3.1 * label.size);
@@ -193,7 +193,7 @@ fn axes(drawing: &mut Drawing, frame: &Frame, label: TextStyle, brief: &Brief) {
     drawing.text(below, &format!("tolerance of the eye in mm{scale}"), label);
     let above = DVec2::new(lo.x - 3.6 * label.size, lo.y - 1.1 * label.size);
     let text = format!("forecast error {} off, worst view", words::angle(brief));
-    drawing.text(above, &text, label.anchored(Anchor::Start));
+    drawing.text(above, &text, label.anchored(Align::Start));
 }
 
 /// A number without zeros that say nothing.
@@ -203,7 +203,7 @@ fn plain(x: f64) -> String {
 }
 
 /// The least tolerance that was asked for, where all views have the same.
-fn wanted(drawing: &mut Drawing, frame: &Frame, label: TextStyle, brief: &Brief) {
+fn wanted(drawing: &mut Drawing, frame: &Axes, label: TextStyle, brief: &Brief) {
     let least = brief
         .tolerance_mm
         .iter()
@@ -222,12 +222,12 @@ fn wanted(drawing: &mut Drawing, frame: &Frame, label: TextStyle, brief: &Brief)
     drawing.text(
         at,
         "wanted at least",
-        label.anchored(Anchor::Start).lifted(PAPER),
+        label.anchored(Align::Start).lifted(PAPER),
     );
 }
 
 /// Tolerances up to a point's have its forecast or a better one.
-fn stairs(drawing: &mut Drawing, frame: &Frame, trade: &[Trade], size: f64) {
+fn stairs(drawing: &mut Drawing, frame: &Axes, trade: &[Trade], size: f64) {
     let mut line = vec![frame.place(frame.x.from, trade[0].hidden_deg)];
     for (k, t) in trade.iter().enumerate() {
         line.push(frame.place(t.tolerance_mm, t.hidden_deg));
@@ -249,10 +249,10 @@ fn stairs(drawing: &mut Drawing, frame: &Frame, trade: &[Trade], size: f64) {
 }
 
 /// A diamond for what is chosen, a ring for the start, and words beside it, up to the right where nothing is.
-fn mark(drawing: &mut Drawing, frame: &Frame, trade: &Trade, text: &str, size: f64, chosen: bool) {
+fn mark(drawing: &mut Drawing, frame: &Axes, trade: &Trade, text: &str, size: f64, chosen: bool) {
     let at = frame.place(trade.tolerance_mm, trade.hidden_deg);
     let r = 0.62 * size;
-    let style = TextStyle::new(1.05 * size, Face::Regular, TEXT, Anchor::Start).lifted(PAPER);
+    let style = TextStyle::new(1.05 * size, Typeface::Regular, TEXT, Align::Start).lifted(PAPER);
     if chosen {
         let corners = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|d| at + 1.2 * r * d);
         drawing.polygon(&corners, Some(PAPER), Some(Pen::new(CHOSEN, 0.18 * size)));

@@ -1,14 +1,14 @@
 //! One map of a layout: region, ranges, pillars, faults, eyes.
 
-use super::sights::sight;
 use super::story::Story;
-use crate::diagram::Sight;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, Shape, Step, TextStyle};
+use crate::diagram::drawing::{Align, Drawing, Ink, Mark, Pen, TextStyle, Verb};
 use crate::diagram::eyes::{arrow, eye_symbol, eyes};
-use crate::diagram::lettering::Face;
+use crate::diagram::lettering::Typeface;
 use crate::diagram::map::{chord, fan, range};
 use crate::diagram::page::{BASE, FREE, HAIR, PAPER, Page, QUIET, RED, TEXT, deep, pale};
+use crate::diagram::vista::{Grain, Vista, viewpoint};
 use crate::geom::polygon_area;
+use crate::horizon::Run;
 use crate::planner::{Frame, Pillar};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -78,29 +78,42 @@ impl<'a> Map<'a> {
 
     /// What every eye sees up to its pillars; red where it meets none, or another's.
     pub fn ranges(&self, drawing: &mut Drawing, frame: &Frame) {
-        let sights: Vec<Sight> = (0..self.story.views.len())
-            .map(|v| sight(self.story, frame, v, self.arc))
-            .collect();
-        for (view, sight) in self.story.views.iter().zip(&sights) {
-            for interval in &sight.intervals {
-                fan(drawing, &self.page, sight, interval, view.colour);
+        let views = self.story.views;
+        let vistas: Vec<Vista> = (0..views.len()).map(|v| self.vista(frame, v)).collect();
+        for (view, vista) in views.iter().zip(&vistas) {
+            for interval in &vista.intervals {
+                fan(drawing, &self.page, vista, interval, view.colour);
             }
         }
-        for (v, sight) in sights.iter().enumerate() {
-            for run in sight.runs() {
-                match run.support.and_then(|i| frame.pillars.get(i)) {
-                    None => self.past(drawing, sight, &run.hits),
-                    Some(p) if p.owner != Some(v) => self.foreign(drawing, sight, &run.hits),
+        for (v, vista) in vistas.iter().enumerate() {
+            for sector in vista.sectors() {
+                match sector.obstacle.and_then(|i| frame.pillars.get(i)) {
+                    None => self.past(drawing, vista, &sector.hits),
+                    Some(p) if p.owner != Some(v) => self.foreign(drawing, vista, &sector.hits),
                     Some(_) => {}
                 }
             }
         }
     }
 
+    /// What the eye of view `v` sees at a frame.
+    fn vista(&self, frame: &Frame, v: usize) -> Vista {
+        let runs = frame.runs.get(v).map_or(&[][..], Vec::as_slice);
+        let intervals = runs
+            .chunk_by(|a, b| a.to == b.from)
+            .map(|i: &[Run]| i.iter());
+        let obstacle = |i: usize| {
+            let pillar = frame.pillars.get(i)?;
+            Some(self.story.brief.shapes[pillar.shape].obstacle(pillar.at))
+        };
+        let viewpoint = viewpoint(&self.story.views[v]);
+        Vista::new(&viewpoint, intervals, obstacle, Grain::Chords(self.arc))
+    }
+
     /// Where an eye looks past all pillars.
-    fn past(&self, drawing: &mut Drawing, sight: &Sight, hits: &[(f64, f64)]) {
+    fn past(&self, drawing: &mut Drawing, vista: &Vista, hits: &[(f64, f64)]) {
         let u = self.page.u;
-        let points = range(&self.page, sight, hits);
+        let points = range(&self.page, vista, hits);
         drawing.polygon(&points, Some(RED.fade(0.18)), None);
         if let [far, other_far, other_near, near] = points[..] {
             let middle = [(near + other_near) / 2.0, (far + other_far) / 2.0];
@@ -109,8 +122,8 @@ impl<'a> Map<'a> {
     }
 
     /// Where an eye meets another view's pillar.
-    fn foreign(&self, drawing: &mut Drawing, sight: &Sight, hits: &[(f64, f64)]) {
-        let at = |(bearing, t): &(f64, f64)| self.page.place(sight.point(*bearing, *t));
+    fn foreign(&self, drawing: &mut Drawing, vista: &Vista, hits: &[(f64, f64)]) {
+        let at = |(bearing, t): &(f64, f64)| self.page.place(vista.point(*bearing, *t));
         let line: Vec<DVec2> = hits.iter().map(at).collect();
         drawing.polyline(&line, Pen::new(RED, 0.9 * self.page.u));
     }
@@ -141,8 +154,8 @@ impl<'a> Map<'a> {
             .scaled(self.story.brief.shapes[pillar.shape].reach);
         let size = (1.25 * reach).min(LARGEST_LETTER);
         if let Some((_, key)) = owner.filter(|_| size >= LEAST_LETTER) {
-            let style =
-                TextStyle::new(size, Face::Regular, TEXT, Anchor::Middle).fitting(key, 1.5 * reach);
+            let style = TextStyle::new(size, Typeface::Regular, TEXT, Align::Middle)
+                .fitting(key, 1.5 * reach);
             drawing.text(at + DVec2::new(0.0, 0.35 * style.size), key, style);
         }
     }
@@ -191,13 +204,13 @@ impl<'a> Map<'a> {
     }
 
     /// Crosses at faults, the first `numbered` of them with their number in the list below the map.
-    pub fn marks(&self, drawing: &mut Drawing, frame: &Frame, numbered: usize) {
+    pub fn marks(&self, drawing: &mut Drawing, marks: &[(DVec2, String)], numbered: usize) {
         let u = self.page.u;
-        for (place, text) in &frame.marks {
+        for (place, text) in marks {
             sign(drawing, self.page.place(*place), CROSS * u, RED, Some(text));
         }
-        for (k, (place, _)) in frame.marks.iter().enumerate().take(numbered) {
-            let style = self.page.style(3.6, Face::Bold, RED, Anchor::Start);
+        for (k, (place, _)) in marks.iter().enumerate().take(numbered) {
+            let style = self.page.style(3.6, Typeface::Bold, RED, Align::Start);
             let beside = self.page.place(*place) + u * DVec2::new(1.9, -1.1);
             drawing.text(beside, &(k + 1).to_string(), style.lifted(PAPER));
         }
@@ -222,7 +235,7 @@ impl<'a> Map<'a> {
             let ahead = (page.place(view.look_at.truncate()) - at).normalize_or_zero();
             arrow(drawing, page, at, ahead, far, view.colour);
             eye_symbol(drawing, at, 4.0 * page.u, view.colour);
-            let style = page.style(5.0, Face::Bold, deep(view.colour, 0.35), Anchor::Middle);
+            let style = page.style(5.0, Typeface::Bold, deep(view.colour, 0.35), Align::Middle);
             let beside = at + page.u * (7.4 * ahead.perp() + DVec2::new(0.0, 1.8));
             drawing.text(beside, key, style.lifted(PAPER));
         }
@@ -233,13 +246,13 @@ impl<'a> Map<'a> {
 pub fn sign(drawing: &mut Drawing, at: DVec2, half: f64, ink: Ink, text: Option<&str>) {
     let arm = |x: f64, y: f64| at + half * DVec2::new(x, y);
     let steps = vec![
-        Step::Move(arm(-1.0, -1.0)),
-        Step::Line(arm(1.0, 1.0)),
-        Step::Move(arm(-1.0, 1.0)),
-        Step::Line(arm(1.0, -1.0)),
+        Verb::Move(arm(-1.0, -1.0)),
+        Verb::Line(arm(1.0, 1.0)),
+        Verb::Move(arm(-1.0, 1.0)),
+        Verb::Line(arm(1.0, -1.0)),
     ];
     for (ink, width, text) in [(PAPER, 1.25, None), (ink, 0.58, text)] {
-        drawing.shapes.push(Shape {
+        drawing.shapes.push(Mark {
             steps: steps.clone(),
             fill: None,
             pen: Some(Pen::new(ink, width * half)),

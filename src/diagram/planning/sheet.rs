@@ -1,22 +1,19 @@
 //! The plan's page: two maps at the same scale, what they are worth, and what camouflage costs.
 
+use super::measures::{COLUMNS, MARGIN, WIDTH};
 use super::plot;
 use super::scenery::{Map, plus, sign};
 use super::story::Story;
 use super::table;
 use super::words;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::lettering::{Typeface, width};
 use crate::diagram::page::{PAPER, QUIET, RED, TEXT, deep, pale};
 use crate::planner::Frame;
 use glam::DVec2;
 
-/// A4 on its side, millimetres.
-const WIDTH: f64 = 297.0;
+/// At least A4 on its side, millimetres.
 const LEAST_HEIGHT: f64 = 210.0;
-pub const MARGIN: f64 = 11.0;
-/// Edges of both columns.
-pub const COLUMNS: [[f64; 2]; 2] = [[MARGIN, 146.0], [151.0, WIDTH - MARGIN]];
 /// Baselines of the maps' captions; top and bottom of the maps.
 const CAPTION: f64 = 30.0;
 const MAPS: [f64; 2] = [36.0, 149.0];
@@ -31,7 +28,7 @@ const KEY: f64 = 7.0;
 const PLOT: f64 = 44.0;
 
 pub fn draw(story: &Story) -> Drawing {
-    let lists = [story.first(), story.last()].map(|f| f.marks.len().min(LISTED + 1));
+    let lists = [story.first(), story.last()].map(|f| story.marks(f).len().min(LISTED + 1));
     let key = MAPS[1] + LINE * lists[0].max(lists[1]) as f64 + 5.5;
     let top = key + KEY;
     let bottom = top + table::height(story).max(PLOT);
@@ -73,22 +70,23 @@ fn half(drawing: &mut Drawing, story: &Story, before: bool) {
         map.changes(drawing);
     }
     map.eyes(drawing);
-    map.marks(drawing, frame, numbered(frame));
+    let marks = story.marks(frame);
+    map.marks(drawing, &marks, numbered(&marks));
     caption(drawing, story, column, frame, before);
-    list(drawing, column, frame);
+    list(drawing, column, &marks);
 }
 
 /// How many faults have a line of their own below the map.
-fn numbered(frame: &Frame) -> usize {
-    if frame.marks.len() > LISTED + 1 {
+fn numbered(marks: &[(DVec2, String)]) -> usize {
+    if marks.len() > LISTED + 1 {
         LISTED
     } else {
-        frame.marks.len()
+        marks.len()
     }
 }
 
 fn heading(drawing: &mut Drawing, story: &Story) {
-    let title = TextStyle::new(8.0, Face::Regular, TEXT, Anchor::Start)
+    let title = TextStyle::new(8.0, Typeface::Regular, TEXT, Align::Start)
         .fitting(story.title, WIDTH - 2.0 * MARGIN);
     drawing.text(DVec2::new(MARGIN, 14.5), story.title, title);
     let line = format!(
@@ -102,7 +100,7 @@ fn heading(drawing: &mut Drawing, story: &Story) {
         words::plural(story.last().pillars.len() as u64, "pillar"),
         story.brief.seed,
     );
-    let style = TextStyle::new(3.4, Face::Light, QUIET, Anchor::Start);
+    let style = TextStyle::new(3.4, Typeface::Light, QUIET, Align::Start);
     drawing.text(DVec2::new(MARGIN, 20.5), &line, style);
 }
 
@@ -114,7 +112,7 @@ fn caption(drawing: &mut Drawing, story: &Story, column: &[f64; 2], frame: &Fram
         (true, true) => "As given",
         (true, false) => "Mended",
     };
-    let bold = TextStyle::new(4.6, Face::Bold, TEXT, Anchor::Start);
+    let bold = TextStyle::new(4.6, Typeface::Bold, TEXT, Align::Start);
     drawing.text(at, name, bold);
     let beside = at + DVec2::new(width(name, bold.size, bold.face) + 3.0, 0.0);
     let line = format!(
@@ -125,13 +123,13 @@ fn caption(drawing: &mut Drawing, story: &Story, column: &[f64; 2], frame: &Fram
         words::angle(story.brief),
         words::millimetres(frame.tolerance_mm),
     );
-    let style = TextStyle::new(3.1, Face::Light, TEXT, Anchor::Start);
+    let style = TextStyle::new(3.1, Typeface::Light, TEXT, Align::Start);
     drawing.text(beside, &line, style.fitting(&line, column[1] - beside.x));
     let (faults, ink) = match words::faults(&frame.faults) {
         Some(faults) => (format!("faults: {faults}"), RED),
         None => ("no faults".to_owned(), QUIET),
     };
-    let style = TextStyle::new(2.9, Face::Light, ink, Anchor::Start);
+    let style = TextStyle::new(2.9, Typeface::Light, ink, Align::Start);
     drawing.text_within(
         at + DVec2::new(0.0, 4.8),
         &faults,
@@ -141,13 +139,13 @@ fn caption(drawing: &mut Drawing, story: &Story, column: &[f64; 2], frame: &Fram
 }
 
 /// What the numbers at faults mean.
-fn list(drawing: &mut Drawing, column: &[f64; 2], frame: &Frame) {
-    let style = TextStyle::new(2.8, Face::Light, TEXT, Anchor::Start);
-    let shown = numbered(frame);
+fn list(drawing: &mut Drawing, column: &[f64; 2], marks: &[(DVec2, String)]) {
+    let style = TextStyle::new(2.8, Typeface::Light, TEXT, Align::Start);
+    let shown = numbered(marks);
     let line = |k: usize| DVec2::new(column[0], MAPS[1] + LINE * (k as f64 + 1.0));
-    for (k, (_, text)) in frame.marks.iter().take(shown).enumerate() {
+    for (k, (_, text)) in marks.iter().take(shown).enumerate() {
         let number = TextStyle {
-            face: Face::Bold,
+            face: Typeface::Bold,
             ink: RED,
             ..style
         };
@@ -155,8 +153,8 @@ fn list(drawing: &mut Drawing, column: &[f64; 2], frame: &Frame) {
         let beside = line(k) + DVec2::new(5.0, 0.0);
         drawing.text_within(beside, text, column[1] - beside.x, style);
     }
-    if shown < frame.marks.len() {
-        let more = format!("and {} more", frame.marks.len() - shown);
+    if shown < marks.len() {
+        let more = format!("and {} more", marks.len() - shown);
         drawing.text(
             line(shown) + DVec2::new(5.0, 0.0),
             &more,
@@ -171,7 +169,7 @@ fn list(drawing: &mut Drawing, column: &[f64; 2], frame: &Frame) {
 /// What the maps' signs mean.
 fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
     let grey = [0x8A, 0x8F, 0x94];
-    let style = TextStyle::new(2.8, Face::Light, TEXT, Anchor::Start);
+    let style = TextStyle::new(2.8, Typeface::Light, TEXT, Align::Start);
     let fine = Pen::new(deep(grey, 0.35), 0.2);
     let mut x = MARGIN;
     let gap = if story.mended() { 5.0 } else { 7.0 };
@@ -210,7 +208,7 @@ fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
     }
     if shown
         .iter()
-        .all(|f| f.faults.is_empty() && f.marks.is_empty())
+        .all(|f| f.faults.is_empty() && story.marks(f).is_empty())
     {
         return;
     }

@@ -19,10 +19,19 @@ pub struct Story<'a> {
     pub numbered: bool,
     /// Middle and radius of a circle around the region and all pillars.
     pub circle: (DVec2, f64),
+    tell: Tell<'a>,
 }
 
+/// What is to be written at which places of a frame: its faults, worded by who knows how to talk.
+pub type Tell<'a> = &'a dyn Fn(&Frame) -> Vec<(DVec2, String)>;
+
 impl<'a> Story<'a> {
-    pub fn new(title: &'a str, views: &'a [View], brief: &'a Brief, planned: &'a Planned) -> Self {
+    pub fn new(
+        title: &'a str,
+        views: &'a [View],
+        (brief, planned): (&'a Brief, &'a Planned),
+        tell: Tell<'a>,
+    ) -> Self {
         let frames = if planned.frames.is_empty() {
             Cow::Owned(vec![only_frame(planned)])
         } else {
@@ -44,7 +53,13 @@ impl<'a> Story<'a> {
             keys,
             numbered,
             circle,
+            tell,
         }
+    }
+
+    /// Places of a frame's faults, and what they are.
+    pub fn marks(&self, frame: &Frame) -> Vec<(DVec2, String)> {
+        (self.tell)(frame)
     }
 
     pub fn first(&self) -> &Frame {
@@ -85,7 +100,6 @@ fn only_frame(planned: &Planned) -> Frame {
         pillars: planned.pillars.clone(),
         runs: Vec::new(),
         faults: Vec::new(),
-        marks: Vec::new(),
         hidden_deg: least(|w| w.hidden_deg),
         tolerance_mm: least(|w| w.tolerance_mm[1]),
     }

@@ -3,8 +3,8 @@
 use super::scenery::Map;
 use super::story::Story;
 use super::words;
-use crate::diagram::drawing::{Anchor, Drawing, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, TextStyle};
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{PAPER, QUIET, RED, TEXT};
 use glam::DVec2;
 
@@ -28,10 +28,10 @@ pub fn draw(story: &Story) -> Drawing {
     );
     let mut drawing = Drawing::new(size);
     drawing.rect(DVec2::ZERO, size, Some(PAPER), None);
-    let head =
-        TextStyle::new(6.0, Face::Regular, TEXT, Anchor::Start).fitting(story.title, 0.7 * size.x);
+    let head = TextStyle::new(6.0, Typeface::Regular, TEXT, Align::Start)
+        .fitting(story.title, 0.7 * size.x);
     drawing.text(DVec2::new(MARGIN, 12.0), story.title, head);
-    let note = TextStyle::new(3.2, Face::Light, QUIET, Anchor::End);
+    let note = TextStyle::new(3.2, Typeface::Light, QUIET, Align::End);
     drawing.text(
         DVec2::new(size.x - MARGIN, 12.0),
         "the search for a layout",
@@ -58,7 +58,7 @@ fn cell(drawing: &mut Drawing, story: &Story, index: usize, corner: DVec2) {
     map.ranges(drawing, frame);
     map.pillars(drawing, &frame.pillars);
     map.small_eyes(drawing);
-    map.marks(drawing, frame, 0);
+    map.marks(drawing, &story.marks(frame), 0);
     let middle = corner.x + CELL.x / 2.0;
     let line = format!(
         "{}   ·   error {}   ·   tolerance {}",
@@ -66,9 +66,9 @@ fn cell(drawing: &mut Drawing, story: &Story, index: usize, corner: DVec2) {
         words::degrees(frame.hidden_deg),
         words::millimetres(frame.tolerance_mm),
     );
-    let style = TextStyle::new(3.0, Face::Regular, TEXT, Anchor::Middle);
+    let style = TextStyle::new(3.0, Typeface::Regular, TEXT, Align::Middle);
     drawing.text(DVec2::new(middle, corner.y + MAP + 4.0), &line, style);
-    let small = TextStyle::new(2.6, Face::Light, QUIET, Anchor::Middle);
+    let small = TextStyle::new(2.6, Typeface::Light, QUIET, Align::Middle);
     let below = DVec2::new(middle, corner.y + MAP + 8.0);
     match words::faults(&frame.faults) {
         Some(faults) => drawing.text_within(

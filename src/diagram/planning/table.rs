@@ -1,11 +1,11 @@
 //! What a layout is worth to every view, as figures.
 
-use super::sheet::{COLUMNS, MARGIN};
+use super::measures::{COLUMNS, MARGIN};
 use super::story::Story;
 use super::words;
-use crate::diagram::drawing::{Anchor, Drawing, Pen, TextStyle};
+use crate::diagram::drawing::{Align, Drawing, Pen, TextStyle};
 use crate::diagram::eyes::eye_symbol;
-use crate::diagram::lettering::Face;
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{HAIR, QUIET, TEXT, deep};
 use crate::planner::{Adjustment, Worth};
 use glam::DVec2;
@@ -47,7 +47,7 @@ fn adjusted(a: &Adjustment) -> Option<String> {
 
 /// Draws it from `top` down.
 pub fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
-    let head = TextStyle::new(2.6, Face::Light, QUIET, Anchor::End);
+    let head = TextStyle::new(2.6, Typeface::Light, QUIET, Align::End);
     let off = format!("at {}", words::angle(story.brief));
     let titles = [
         ["", "covered"],
@@ -65,9 +65,9 @@ pub fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
     let mut y = top + HEAD;
     for (k, view) in story.views.iter().enumerate() {
         eye_symbol(drawing, DVec2::new(MARGIN + 2.3, y - 1.1), 2.2, view.colour);
-        let style = TextStyle::new(3.3, Face::Regular, TEXT, Anchor::Start);
+        let style = TextStyle::new(3.3, Typeface::Regular, TEXT, Align::Start);
         let key = TextStyle {
-            face: Face::Bold,
+            face: Typeface::Bold,
             ink: deep(view.colour, 0.35),
             ..style
         };
@@ -78,11 +78,11 @@ pub fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
         );
         drawing.text_within(DVec2::new(NAME, y), &view.name, NAME_WIDTH, style);
         if let Some(worth) = story.planned.worth.get(k) {
-            row(drawing, y, &cells(worth), Face::Light);
+            row(drawing, y, &cells(worth), Typeface::Light);
         }
         if let Some(note) = story.planned.adjustments.get(k).and_then(adjusted) {
             y += NOTE;
-            let style = TextStyle::new(2.4, Face::Light, QUIET, Anchor::Start);
+            let style = TextStyle::new(2.4, Typeface::Light, QUIET, Align::Start);
             drawing.text(DVec2::new(NAME, y + 0.3), &note, style);
         }
         y += ROW;
@@ -94,9 +94,9 @@ pub fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
 fn totals(drawing: &mut Drawing, story: &Story, y: f64) {
     let rule = [MARGIN, COLUMNS[0][1]].map(|x| DVec2::new(x, y - 3.9));
     drawing.polyline(&rule, Pen::new(HAIR, 0.2));
-    let style = TextStyle::new(3.3, Face::Regular, TEXT, Anchor::Start);
+    let style = TextStyle::new(3.3, Typeface::Regular, TEXT, Align::Start);
     drawing.text(DVec2::new(MARGIN, y), "worst, and all pillars", style);
-    row(drawing, y, &worst(story), Face::Regular);
+    row(drawing, y, &worst(story), Typeface::Regular);
     let planned = story.planned;
     let fixed = match planned.pillars.iter().filter(|p| p.fixed).count() {
         0 => String::new(),
@@ -108,12 +108,12 @@ fn totals(drawing: &mut Drawing, story: &Story, y: f64) {
         words::plural(planned.tries, "try"),
         words::ended(planned.ended),
     );
-    let style = TextStyle::new(2.9, Face::Light, QUIET, Anchor::Start);
+    let style = TextStyle::new(2.9, Typeface::Light, QUIET, Align::Start);
     drawing.text(DVec2::new(MARGIN, y + 5.4), &line, style);
 }
 
-fn row(drawing: &mut Drawing, y: f64, cells: &[String; 7], face: Face) {
-    let style = TextStyle::new(3.2, face, TEXT, Anchor::End);
+fn row(drawing: &mut Drawing, y: f64, cells: &[String; 7], face: Typeface) {
+    let style = TextStyle::new(3.2, face, TEXT, Align::End);
     for (x, text) in FIGURES.iter().zip(cells) {
         drawing.text(DVec2::new(*x, y), text, style);
     }

@@ -1,6 +1,6 @@
 //! Figures of a plan as people read them.
 
-use crate::planner::{Brief, Ended, Fault, Kind};
+use crate::planner::{Brief, Ended, Fault, FaultKind};
 
 /// A length: two digits that matter, none behind the point from 10 mm on. Endless is "any".
 pub fn millimetres(mm: f64) -> String {
@@ -56,18 +56,18 @@ pub fn angle(brief: &Brief) -> String {
 /// Every kind of fault that there is, worst first.
 pub fn faults(faults: &[Fault]) -> Option<String> {
     let kinds = [
-        (Kind::Uncovered, "uncovered"),
-        (Kind::Foreign, "on other views' pillars"),
-        (Kind::Loose, "overlap missing at cuts"),
-        (Kind::Narrow, "missing of narrow strips"),
-        (Kind::Fin, "of thin rests of pillars"),
-        (Kind::Ends, "above or below pillars"),
-        (Kind::Sight, "in other views' sight"),
-        (Kind::Tight, "of gaps missing"),
-        (Kind::Outside, "outside the region"),
-        (Kind::Open, "of cuts open too fast"),
+        (FaultKind::Uncovered, "uncovered"),
+        (FaultKind::Foreign, "on other views' pillars"),
+        (FaultKind::Loose, "overlap missing at cuts"),
+        (FaultKind::Narrow, "missing of narrow strips"),
+        (FaultKind::Fin, "of thin rests of pillars"),
+        (FaultKind::Ends, "above or below pillars"),
+        (FaultKind::Sight, "in other views' sight"),
+        (FaultKind::Tight, "of gaps missing"),
+        (FaultKind::Outside, "outside the region"),
+        (FaultKind::Open, "of cuts open too fast"),
     ];
-    let sum = |kind: Kind| wrong(faults.iter().filter(|f| f.kind == kind));
+    let sum = |kind: FaultKind| wrong(faults.iter().filter(|f| f.kind == kind));
     let mut kinds: Vec<(f64, &str)> = kinds.map(|(kind, what)| (sum(kind), what)).to_vec();
     kinds.retain(|k| k.0 > 0.0);
     kinds.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -75,7 +75,7 @@ pub fn faults(faults: &[Fault]) -> Option<String> {
         .iter()
         .map(|(mm, what)| format!("{} {what}", millimetres(*mm)))
         .collect();
-    let missing = sum(Kind::Count);
+    let missing = sum(FaultKind::Count);
     if missing > 0.0 {
         let n = plural(missing as u64, "pillar");
         list.push(format!("{n} too many or too few"));

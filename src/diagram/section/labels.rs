@@ -1,6 +1,6 @@
 //! Labels in a row above a panel, in the order of what they name and without overlap.
 
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::lettering::{Typeface, width};
 
 /// Room between labels, in ems.
 const AIR: f64 = 0.7;
@@ -10,7 +10,7 @@ const SIZES: [f64; 4] = [2.6, 2.3, 2.0, 1.8];
 
 /// The largest size at which all texts fit side by side, and which of them fit at the smallest: the most important ones first.
 pub fn fitting(texts: &[String], importance: &[f64], room: f64) -> (f64, Vec<usize>) {
-    let need = |k: usize, size: f64| width(&texts[k], size, Face::Regular) + AIR * size;
+    let need = |k: usize, size: f64| width(&texts[k], size, Typeface::Regular) + AIR * size;
     let all: Vec<usize> = (0..texts.len()).collect();
     let fits = |size: &&f64| all.iter().map(|k| need(*k, **size)).sum::<f64>() <= room;
     if let Some(size) = SIZES.iter().find(fits) {
@@ -35,7 +35,7 @@ pub fn fitting(texts: &[String], importance: &[f64], room: f64) -> (f64, Vec<usi
 pub fn spread(wanted: &[f64], texts: &[&str], size: f64, (lo, hi): (f64, f64)) -> Vec<f64> {
     let half: Vec<f64> = texts
         .iter()
-        .map(|t| (width(t, size, Face::Regular) + AIR * size) / 2.0)
+        .map(|t| (width(t, size, Typeface::Regular) + AIR * size) / 2.0)
         .collect();
     let mut at = wanted.to_vec();
     let mut end = lo;

@@ -6,9 +6,9 @@ use super::chains::{DepthsOfGroup, Polyline, chains, rooms, surface, tears};
 use super::labels::{fitting, spread};
 use super::values::{Section, Stretch};
 use super::window::{EDGE, HEAD, LABELS, PANEL, WIDTH, Window};
-use crate::diagram::Plan;
-use crate::diagram::drawing::{Anchor, Drawing, Ink, Pen, TextStyle};
-use crate::diagram::lettering::Face;
+use crate::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
+use crate::diagram::finished::Plan;
+use crate::diagram::lettering::Typeface;
 use crate::diagram::page::{FREE, HAIR, PAPER, QUIET, RED, TEXT, deep, pale};
 use glam::DVec2;
 
@@ -47,16 +47,16 @@ pub fn groups_sheet(name: &str, section: &Section) -> Plan {
     }
 }
 
-fn style(size: f64, face: Face, ink: Ink) -> TextStyle {
-    TextStyle::new(size, face, ink, Anchor::Start)
+fn style(size: f64, face: Typeface, ink: Ink) -> TextStyle {
+    TextStyle::new(size, face, ink, Align::Start)
 }
 
 fn heading(drawing: &mut Drawing, name: &str, section: &Section) {
     let title = format!("{name}: groups, their bounds and their scales");
-    let large = style(7.0, Face::Regular, TEXT).fitting(&title, WIDTH - 2.0 * EDGE);
+    let large = style(7.0, Typeface::Regular, TEXT).fitting(&title, WIDTH - 2.0 * EDGE);
     drawing.text(DVec2::new(EDGE, 15.0), &title, large);
     let line = subtitle(section);
-    let small = style(3.4, Face::Light, QUIET).fitting(&line, WIDTH - 2.0 * EDGE);
+    let small = style(3.4, Typeface::Light, QUIET).fitting(&line, WIDTH - 2.0 * EDGE);
     drawing.text(DVec2::new(EDGE, 22.0), &line, small);
 }
 
@@ -292,7 +292,7 @@ fn names(
         drawing.text(
             base,
             text,
-            style(size, Face::Regular, ink).anchored(Anchor::Middle),
+            style(size, Typeface::Regular, ink).anchored(Align::Middle),
         );
     }
     if kept.len() < texts.len() {
@@ -300,7 +300,7 @@ fn names(
         drawing.text(
             DVec2::new(view.left, view.top() - 10.5),
             &note,
-            style(2.2, Face::Light, QUIET),
+            style(2.2, Typeface::Light, QUIET),
         );
     }
 }
@@ -321,15 +321,19 @@ fn to_eye(drawing: &mut Drawing, view: &Window) {
     let text = format!("eye, {:.0} mm from here", from.length());
     let right = start.x < view.left + 0.6 * PANEL;
     let (dx, anchor) = if right {
-        (2.5, Anchor::Start)
+        (2.5, Align::Start)
     } else {
-        (-2.5, Anchor::End)
+        (-2.5, Align::End)
     };
     let at = DVec2::new(
         start.x.max(tip.x * f64::from(u8::from(right))) + dx,
         start.y + 4.5,
     );
-    drawing.text(at, &text, style(2.6, Face::Light, QUIET).anchored(anchor));
+    drawing.text(
+        at,
+        &text,
+        style(2.6, Typeface::Light, QUIET).anchored(anchor),
+    );
 }
 
 fn caption(drawing: &mut Drawing, section: &Section, view: &Window, k: usize) {
@@ -357,16 +361,16 @@ fn caption(drawing: &mut Drawing, section: &Section, view: &Window, k: usize) {
         ),
     };
     let y = view.bottom() + ARROW;
-    let head = style(4.0, Face::Regular, TEXT).fitting(title, PANEL);
+    let head = style(4.0, Typeface::Regular, TEXT).fitting(title, PANEL);
     drawing.text(DVec2::new(view.left, y + 4.0), title, head);
-    let body = style(2.8, Face::Light, QUIET).fitting(text, PANEL);
+    let body = style(2.8, Typeface::Light, QUIET).fitting(text, PANEL);
     drawing.text(DVec2::new(view.left, y + 9.0), text, body);
 }
 
 /// What lines and areas mean, and a scale bar.
 fn key(drawing: &mut Drawing, section: &Section, view: &Window, y: f64) {
     let rgb = colour(0);
-    let ink = style(2.8, Face::Light, TEXT);
+    let ink = style(2.8, Typeface::Light, TEXT);
     let mut x = EDGE;
     let mut put = |drawing: &mut Drawing, fill: Option<Ink>, pen: Pen, text: &str| {
         let (lo, hi) = (DVec2::new(x, y - 2.2), DVec2::new(x + 5.0, y));
@@ -375,7 +379,7 @@ fn key(drawing: &mut Drawing, section: &Section, view: &Window, y: f64) {
             None => drawing.polyline(&[lo.with_y(y - 1.0), hi.with_y(y - 1.0)], pen),
         }
         drawing.text(DVec2::new(x + 6.5, y), text, ink);
-        x += 6.5 + crate::diagram::lettering::width(text, 2.8, Face::Light) + 6.0;
+        x += 6.5 + crate::diagram::lettering::width(text, 2.8, Typeface::Light) + 6.0;
     };
     put(drawing, Some(FREE), Pen::new(QUIET, 0.18), "support");
     put(
@@ -412,7 +416,7 @@ fn key(drawing: &mut Drawing, section: &Section, view: &Window, y: f64) {
     drawing.text(
         (a + b) / 2.0 - DVec2::new(0.0, 1.2),
         &format!("{mm} mm"),
-        ink.anchored(Anchor::Middle),
+        ink.anchored(Align::Middle),
     );
 }
 

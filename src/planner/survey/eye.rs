@@ -1,9 +1,11 @@
 //! What one eye meets: pillars in their order, overlap behind cuts, how fast cuts open.
 
-use super::{Fault, Kind, Offsets, reach_of};
+use super::fault::{Fault, FaultKind};
+use super::offsets::{Offsets, reach_of};
 use crate::geom::parallax;
+use crate::horizon::{Run, Shadow};
 use crate::planner::brief::{Brief, Pillar};
-use crate::planner::skyline::{Run, Shadow};
+use crate::planner::skyline::Skyline;
 use crate::planner::subject::Subject;
 use crate::steps::UNSEEN_RAD;
 
@@ -13,79 +15,59 @@ pub struct OfView<'a> {
     pub view: usize,
     pub brief: &'a Brief,
     pub pillars: &'a [Pillar],
-    pub shadows: &'a [Shadow],
+    pub skyline: &'a Skyline,
 }
 
 impl OfView<'_> {
     /// Faults of what the eye meets.
-    pub fn look(&self, runs: &[Run], faults: &mut Vec<Fault>) {
-        for (k, run) in runs.iter().enumerate() {
-            let Some(i) = run.pillar else {
+    pub fn look(&self, faults: &mut Vec<Fault>) {
+        let overlap = self.brief.care.overlap;
+        for (k, run) in self.skyline.runs.iter().enumerate() {
+            let Some(i) = run.obstacle else {
                 let distance = (self.subject.middle.truncate() - self.subject.o).length();
-                let mm = (run.to - run.from) * distance + self.brief.care.overlap;
-                self.note(faults, Kind::Uncovered, [None, None], mm, (run, distance));
+                let mm = run.width() * distance + overlap;
+                let place = (run, distance);
+                self.note(faults, FaultKind::Uncovered, [None, None], mm, place);
                 continue;
             };
-            let shadow = &self.shadows[i];
-            let place = (run, shadow.distance);
-            let width = (run.to - run.from) * shadow.distance;
+            let distance = self.skyline.shadows[i].distance;
+            let (width, place, own) = (run.width() * distance, (run, distance), [Some(i), None]);
             if self.pillars[i].owner != Some(self.view) {
-                self.note(
-                    faults,
-                    Kind::Foreign,
-                    [Some(i), None],
-                    width + self.brief.care.overlap,
-                    place,
-                );
+                self.note(faults, FaultKind::Foreign, own, width + overlap, place);
                 continue;
             }
-            self.note(
-                faults,
-                Kind::Narrow,
-                [Some(i), None],
-                self.brief.care.narrowest - width,
-                place,
-            );
-            self.note(
-                faults,
-                Kind::Ends,
-                [Some(i), None],
-                self.beyond_ends(run, i),
-                place,
-            );
-            let left = k
-                .checked_sub(1)
-                .map(|p| &runs[p])
-                .filter(|r| r.to == run.from);
-            let right = runs.get(k + 1).filter(|r| r.from == run.to);
-            let other = |next: Option<&Run>| next.and_then(|n| n.pillar);
-            for (j, own, behind) in [
-                (
-                    other(left),
-                    run.from - shadow.from,
-                    self.reach_on(other(left), run.from, |s, at| s.to - at),
-                ),
-                (
-                    other(right),
-                    shadow.to - run.to,
-                    self.reach_on(other(right), run.to, |s, at| at - s.from),
-                ),
-            ] {
-                // One of the two reaches on behind the other. Cuts are met from both sides.
-                let mm = self.brief.care.overlap - own.max(behind) * shadow.distance;
-                let mm = if j.is_some() { mm / 2.0 } else { mm };
-                self.note(faults, Kind::Loose, [Some(i), j], mm, place);
-                let [thin, thick] = self.brief.care.fins;
-                let width = own * shadow.distance;
-                let mm = (width - thin).min(thick - width);
-                self.note(
-                    faults,
-                    Kind::Fin,
-                    [Some(i), j],
-                    if j.is_some() { mm } else { 0.0 },
-                    place,
-                );
-            }
+            let mm = self.brief.care.narrowest - width;
+            self.note(faults, FaultKind::Narrow, own, mm, place);
+            let mm = self.beyond_ends(run, i);
+            self.note(faults, FaultKind::Ends, own, mm, place);
+            self.look_at_ends(k, i, faults);
+        }
+    }
+
+    /// Faults where the run `k`, on the view's own pillar `i`, goes over to its neighbours or past the models' outline.
+    fn look_at_ends(&self, k: usize, i: usize, faults: &mut Vec<Fault>) {
+        let (runs, shadow) = (&self.skyline.runs, &self.skyline.shadows[i]);
+        let run = &runs[k];
+        let place = (run, shadow.distance);
+        let left = k.checked_sub(1).map(|p| &runs[p]);
+        let left = left.filter(|r| r.to == run.from).and_then(|r| r.obstacle);
+        let right = runs.get(k + 1).filter(|r| r.from == run.to);
+        let right = right.and_then(|r| r.obstacle);
+        let behind_left = self.reach_on(left, run.from, |s, at| s.to - at);
+        let behind_right = self.reach_on(right, run.to, |s, at| at - s.from);
+        for (j, own, behind) in [
+            (left, run.from - shadow.from, behind_left),
+            (right, shadow.to - run.to, behind_right),
+        ] {
+            // One of the two reaches on behind the other. Cuts are met from both sides.
+            let mm = self.brief.care.overlap - own.max(behind) * shadow.distance;
+            let mm = if j.is_some() { mm / 2.0 } else { mm };
+            self.note(faults, FaultKind::Loose, [Some(i), j], mm, place);
+            let [thin, thick] = self.brief.care.fins;
+            let width = own * shadow.distance;
+            let mm = (width - thin).min(thick - width);
+            let mm = if j.is_some() { mm } else { 0.0 };
+            self.note(faults, FaultKind::Fin, [Some(i), j], mm, place);
         }
     }
 
@@ -93,12 +75,12 @@ impl OfView<'_> {
     /// pillars that stand across it reaches beyond, by the negative of `over`.
     fn reach_on(&self, next: Option<usize>, at: f64, over: impl Fn(&Shadow, f64) -> f64) -> f64 {
         if let Some(j) = next {
-            return over(&self.shadows[j], at);
+            return over(&self.skyline.shadows[j], at);
         }
         let own = self
             .pillars
             .iter()
-            .zip(self.shadows)
+            .zip(&self.skyline.shadows)
             .filter(|(p, _)| p.owner == Some(self.view));
         let across = own.filter(|(_, s)| s.from <= at && at <= s.to);
         across
@@ -109,7 +91,7 @@ impl OfView<'_> {
     fn note(
         &self,
         faults: &mut Vec<Fault>,
-        kind: Kind,
+        kind: FaultKind,
         pillars: [Option<usize>; 2],
         mm: f64,
         (run, distance): (&Run, f64),
@@ -127,20 +109,24 @@ impl OfView<'_> {
     }
 
     fn beyond_ends(&self, run: &Run, i: usize) -> f64 {
-        let (shadow, shape) = (&self.shadows[i], &self.brief.shapes[self.pillars[i].shape]);
+        let (shadow, shape) = (
+            &self.skyline.shadows[i],
+            &self.brief.shapes[self.pillars[i].shape],
+        );
         let [near, far] = reach_of(shadow, shape);
         self.subject.beyond_ends(run.from, run.to, near, far, shape)
     }
 
     /// See [`Survey::rates`](super::Survey::rates).
-    pub fn rates(&self, runs: &[Run]) -> [f64; 2] {
+    pub fn rates(&self) -> [f64; 2] {
         let mut worst = [0.0f64; 2];
-        for pair in runs.windows(2).filter(|p| p[0].to == p[1].from) {
-            let [Some(i), Some(j)] = [pair[0].pillar, pair[1].pillar] else {
+        let pairs = self.skyline.runs.windows(2);
+        for pair in pairs.filter(|p| p[0].to == p[1].from) {
+            let [Some(i), Some(j)] = [pair[0].obstacle, pair[1].obstacle] else {
                 continue;
             };
             let [a, b] = [i, j].map(|k| {
-                let shadow = &self.shadows[k];
+                let shadow = &self.skyline.shadows[k];
                 let offsets = Offsets::new(&self.brief.shapes[self.pillars[k].shape]);
                 let slant = (pair[0].to - shadow.middle).cos();
                 [offsets.middle, offsets.near, offsets.back].map(|o| (shadow.distance + o) / slant)
@@ -156,7 +142,7 @@ impl OfView<'_> {
         let allowed = UNSEEN_RAD / tolerance_mm;
         let away = (self.subject.middle.truncate() - self.subject.o).length();
         (tolerance_mm > 0.0 && rate > allowed).then(|| Fault {
-            kind: Kind::Open,
+            kind: FaultKind::Open,
             view: Some(self.view),
             pillars: [None, None],
             mm: (rate - allowed) * away * away,

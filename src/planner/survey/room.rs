@@ -1,8 +1,10 @@
 //! Room: reliefs in sight lines of other views, gaps between solids, the region.
 
-use super::{Fault, Kind, Offsets, Survey};
+use super::fault::{Fault, FaultKind};
+use super::offsets::Offsets;
 use crate::geom::{gap, to_segment};
 use crate::planner::brief::{Brief, Pillar, Shape};
+use crate::planner::skyline::Skyline;
 use crate::planner::subject::Subject;
 use glam::DVec2;
 
@@ -11,7 +13,7 @@ const SIGHT_ROOM_MM: f64 = 0.12;
 
 /// The room in plan that the relief of one run may fill.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
+pub struct Parcel {
     view: usize,
     pillar: usize,
     run: usize,
@@ -22,93 +24,98 @@ pub struct Piece {
     radius: f64,
 }
 
-impl Survey {
-    pub(super) fn pieces(
-        &self,
-        subjects: &[&Subject],
-        shapes: &[Shape],
-        pillars: &[Pillar],
-    ) -> Vec<Piece> {
-        let mut pieces = Vec::new();
-        for (view, runs) in self.runs.iter().enumerate() {
-            let subject = subjects[view];
-            for (run, r) in runs.iter().enumerate() {
-                let Some(pillar) = r.pillar.filter(|i| pillars[*i].owner == Some(view)) else {
-                    continue;
-                };
-                let shadow = &self.shadows[view][pillar];
-                let offsets = Offsets::new(&shapes[pillars[pillar].shape]);
-                let at = |bearing: f64, offset: f64| {
-                    subject.point(
-                        bearing,
-                        (shadow.distance + offset) / (bearing - shadow.middle).cos(),
-                    )
-                };
-                let corners = [
-                    at(r.from, offsets.near),
-                    at(r.from, offsets.far),
-                    at(r.to, offsets.far),
-                    at(r.to, offsets.near),
-                ];
-                let middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
-                let radius = corners
-                    .iter()
-                    .map(|c| c.distance_squared(middle))
-                    .fold(0.0, f64::max)
-                    .sqrt();
-                pieces.push(Piece {
-                    view,
-                    pillar,
-                    run,
-                    corners,
-                    middle,
-                    radius,
-                });
-            }
-        }
-        pieces
-    }
-
-    /// Reliefs of one view that stand in sight lines of another.
-    pub(super) fn in_sight(&mut self, subjects: &[&Subject], pillars: &[Pillar], pieces: &[Piece]) {
-        for own in pieces {
-            let run = &self.runs[own.view][own.run];
-            let subject = subjects[own.view];
-            let [first, last] = [own.corners[1] - subject.o, own.corners[2] - subject.o];
-            let ahead =
-                (pillars[own.pillar].at - subject.o) / self.shadows[own.view][own.pillar].distance;
-            let back = ahead.dot(first);
-            let (one, other) = (subject.way(run.from), subject.way(run.to));
-            for piece in pieces
+/// The parcels of all runs on pillars of their own view.
+pub fn parcels(
+    subjects: &[&Subject],
+    shapes: &[Shape],
+    pillars: &[Pillar],
+    skylines: &[Skyline],
+) -> Vec<Parcel> {
+    let mut parcels = Vec::new();
+    for (view, skyline) in skylines.iter().enumerate() {
+        let subject = subjects[view];
+        for (run, r) in skyline.runs.iter().enumerate() {
+            let Some(pillar) = r.obstacle.filter(|i| pillars[*i].owner == Some(view)) else {
+                continue;
+            };
+            let shadow = &skyline.shadows[pillar];
+            let offsets = Offsets::new(&shapes[pillars[pillar].shape]);
+            let at = |bearing: f64, offset: f64| {
+                subject.point(
+                    bearing,
+                    (shadow.distance + offset) / (bearing - shadow.middle).cos(),
+                )
+            };
+            let corners = [
+                at(r.from, offsets.near),
+                at(r.from, offsets.far),
+                at(r.to, offsets.far),
+                at(r.to, offsets.near),
+            ];
+            let middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
+            let radius = corners
                 .iter()
-                .filter(|p| p.view != own.view && !self.shadows[own.view][p.pillar].below)
+                .map(|c| c.distance_squared(middle))
+                .fold(0.0, f64::max)
+                .sqrt();
+            parcels.push(Parcel {
+                view,
+                pillar,
+                run,
+                corners,
+                middle,
+                radius,
+            });
+        }
+    }
+    parcels
+}
+
+/// Reliefs of one view that stand in sight lines of another.
+pub fn in_sight(
+    subjects: &[&Subject],
+    pillars: &[Pillar],
+    skylines: &[Skyline],
+    parcels: &[Parcel],
+    faults: &mut Vec<Fault>,
+) {
+    for own in parcels {
+        let skyline = &skylines[own.view];
+        let run = &skyline.runs[own.run];
+        let subject = subjects[own.view];
+        let [first, last] = [own.corners[1] - subject.o, own.corners[2] - subject.o];
+        let ahead = (pillars[own.pillar].at - subject.o) / skyline.shadows[own.pillar].distance;
+        let back = ahead.dot(first);
+        let (one, other) = (subject.way(run.from), subject.way(run.to));
+        for parcel in parcels
+            .iter()
+            .filter(|p| p.view != own.view && !skyline.passed[p.pillar])
+        {
+            let middle = parcel.middle - subject.o;
+            let room = parcel.radius + SIGHT_ROOM_MM;
+            if one.perp_dot(middle) < -room
+                || middle.perp_dot(other) < -room
+                || ahead.dot(middle) > back + room
             {
-                let middle = piece.middle - subject.o;
-                let room = piece.radius + SIGHT_ROOM_MM;
-                if one.perp_dot(middle) < -room
-                    || middle.perp_dot(other) < -room
-                    || ahead.dot(middle) > back + room
-                {
-                    continue;
-                }
-                let mm = shared_depth(
-                    subject.o,
-                    [one, other],
-                    (ahead, back),
-                    [first, last],
-                    &piece.corners,
-                ) + SIGHT_ROOM_MM;
-                if mm > 0.0 {
-                    let kind = Kind::Sight;
-                    let pillars = [Some(own.pillar), Some(piece.pillar)];
-                    self.faults.push(Fault {
-                        kind,
-                        view: Some(own.view),
-                        pillars,
-                        mm,
-                        at: piece.middle,
-                    });
-                }
+                continue;
+            }
+            let mm = shared_depth(
+                subject.o,
+                [one, other],
+                (ahead, back),
+                [first, last],
+                &parcel.corners,
+            ) + SIGHT_ROOM_MM;
+            if mm > 0.0 {
+                let kind = FaultKind::Sight;
+                let pillars = [Some(own.pillar), Some(parcel.pillar)];
+                faults.push(Fault {
+                    kind,
+                    view: Some(own.view),
+                    pillars,
+                    mm,
+                    at: parcel.middle,
+                });
             }
         }
     }
@@ -121,10 +128,10 @@ fn shared_depth(
     sides: [DVec2; 2],
     (ahead, back): (DVec2, f64),
     ends: [DVec2; 2],
-    piece: &[DVec2; 4],
+    parcel: &[DVec2; 4],
 ) -> f64 {
     let deepest = |inward: &dyn Fn(DVec2) -> f64| {
-        piece
+        parcel
             .iter()
             .map(|c| inward(*c - o))
             .fold(f64::NEG_INFINITY, f64::max)
@@ -133,7 +140,7 @@ fn shared_depth(
         .min(deepest(&|p| p.perp_dot(sides[1])))
         .min(deepest(&|p| back - ahead.dot(p)));
     (0..4).fold(of_triangle, |least, k| {
-        let (a, b) = (piece[k], piece[(k + 1) % 4]);
+        let (a, b) = (parcel[k], parcel[(k + 1) % 4]);
         let inward = (b - a).perp().normalize_or_zero();
         let of_side = [DVec2::ZERO, ends[0], ends[1]].map(|t| inward.dot(o + t - a));
         least.min(of_side[0].max(of_side[1]).max(of_side[2]))
@@ -141,11 +148,11 @@ fn shared_depth(
 }
 
 /// Room between bodies, and between reliefs and what is not their own pillar.
-pub fn tight(brief: &Brief, pillars: &[Pillar], pieces: &[Piece], faults: &mut Vec<Fault>) {
+pub fn tight(brief: &Brief, pillars: &[Pillar], parcels: &[Parcel], faults: &mut Vec<Fault>) {
     let shapes = &brief.shapes;
     let mut note = |i: usize, j: usize, mm: f64, at: DVec2| {
         if mm > 0.0 {
-            let (kind, pillars) = (Kind::Tight, [Some(i), Some(j)]);
+            let (kind, pillars) = (FaultKind::Tight, [Some(i), Some(j)]);
             faults.push(Fault {
                 kind,
                 view: None,
@@ -173,31 +180,31 @@ pub fn tight(brief: &Brief, pillars: &[Pillar], pieces: &[Piece], faults: &mut V
     if room == 0.0 {
         return;
     }
-    for (n, piece) in pieces.iter().enumerate() {
+    for (n, parcel) in parcels.iter().enumerate() {
         for (i, pillar) in pillars.iter().enumerate() {
             let shape = &shapes[pillar.shape];
-            let reach = piece.radius + shape.reach + room;
-            if i == piece.pillar || piece.middle.distance_squared(pillar.at) > reach * reach {
+            let reach = parcel.radius + shape.reach + room;
+            if i == parcel.pillar || parcel.middle.distance_squared(pillar.at) > reach * reach {
                 continue;
             }
             let apart = if shape.round {
-                to_convex(&piece.corners, pillar.at) - shape.reach
+                to_convex(&parcel.corners, pillar.at) - shape.reach
             } else {
-                gap(&piece.corners, &body(pillar, shapes))
+                gap(&parcel.corners, &body(pillar, shapes))
             };
-            note(piece.pillar, i, room - apart, pillar.at);
+            note(parcel.pillar, i, room - apart, pillar.at);
         }
-        for other in &pieces[n + 1..] {
-            let reach = piece.radius + other.radius + room;
-            if other.pillar != piece.pillar
-                && piece.middle.distance_squared(other.middle) < reach * reach
+        for other in &parcels[n + 1..] {
+            let reach = parcel.radius + other.radius + room;
+            if other.pillar != parcel.pillar
+                && parcel.middle.distance_squared(other.middle) < reach * reach
             {
-                let mm = room - gap(&piece.corners, &other.corners);
+                let mm = room - gap(&parcel.corners, &other.corners);
                 note(
-                    piece.pillar,
+                    parcel.pillar,
                     other.pillar,
                     mm,
-                    (piece.middle + other.middle) / 2.0,
+                    (parcel.middle + other.middle) / 2.0,
                 );
             }
         }
@@ -230,7 +237,7 @@ pub fn placed(brief: &Brief, pillars: &[Pillar], faults: &mut Vec<Fault>) {
             .region
             .outside(pillar.at, brief.shapes[pillar.shape].reach);
         if mm > 0.0 {
-            let (kind, pillars) = (Kind::Outside, [Some(i), None]);
+            let (kind, pillars) = (FaultKind::Outside, [Some(i), None]);
             faults.push(Fault {
                 kind,
                 view: None,
@@ -244,7 +251,7 @@ pub fn placed(brief: &Brief, pillars: &[Pillar], faults: &mut Vec<Fault>) {
     let beyond = fewest.saturating_sub(n).max(n.saturating_sub(most));
     if beyond > 0 {
         let at = brief.region.middle();
-        let (kind, mm) = (Kind::Count, beyond as f64);
+        let (kind, mm) = (FaultKind::Count, beyond as f64);
         faults.push(Fault {
             kind,
             view: None,

@@ -1,7 +1,7 @@
 //! Labels never touch, keep their order and stay in their row.
 
 use super::{AIR, SIZES, fitting, spread};
-use crate::diagram::lettering::{Face, width};
+use crate::diagram::lettering::{Typeface, width};
 
 const ROW: (f64, f64) = (100.0, 188.0);
 
@@ -30,7 +30,7 @@ fn labels_stand_apart_wherever_they_want_to_be() {
             let at = spread(&wanted, &shown, size, ROW);
             let half: Vec<f64> = shown
                 .iter()
-                .map(|t| width(t, size, Face::Regular) / 2.0)
+                .map(|t| width(t, size, Typeface::Regular) / 2.0)
                 .collect();
             for k in 1..at.len() {
                 let gap = (at[k] - half[k]) - (at[k - 1] + half[k - 1]);
