@@ -15,9 +15,9 @@ mod measure;
 mod plot;
 mod rows;
 
-use measure::Seen;
 use pillarforest::diag::Diagnostic;
 use pillarforest::scene::{self, Scene};
+use pillarforest::viewmap::SupportField;
 use rows::{Row, Rows};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -154,7 +154,6 @@ fn run(wishes: &Wishes) -> Result<(), String> {
 
 /// Computes what is wanted of one scene, thick layers first.
 fn measure_subject(subject: &Subject, wishes: &Wishes, rows: &mut Rows) -> Result<(), String> {
-    let mut seen: Option<Vec<Seen>> = None;
     for surface in &SURFACES {
         for mm in THICKNESSES.into_iter().rev() {
             if !wishes.wants(surface.name, mm, rows.complete(subject.scene, surface, mm)) {
@@ -165,12 +164,7 @@ fn measure_subject(subject: &Subject, wishes: &Wishes, rows: &mut Rows) -> Resul
                 return Ok(());
             }
             let scene = resolved(subject, surface, mm, wishes.models.as_deref())?;
-            // What the eye sees does not depend on the layer.
-            let seen = match &seen {
-                Some(seen) => seen,
-                None => seen.insert(measure::seen(&scene)?),
-            };
-            measure_views(subject, surface, mm, &scene, seen, rows)?;
+            measure_views(subject, surface, mm, &scene, rows)?;
         }
     }
     Ok(())
@@ -182,10 +176,10 @@ fn measure_views(
     surface: &Surface,
     mm: f64,
     scene: &Scene,
-    seen: &[Seen],
     rows: &mut Rows,
 ) -> Result<(), String> {
-    for (view, seen) in scene.views.iter().zip(seen) {
+    let field = SupportField::new(&scene.supports);
+    for view in &scene.views {
         let mut row = Row {
             scene: subject.scene.into(),
             surface: surface.name.into(),
@@ -193,7 +187,7 @@ fn measure_views(
             view: view.name.clone(),
             errors: [f64::NAN; 3],
         };
-        match measure::errors(scene, view, seen) {
+        match measure::errors(scene, view, &field) {
             Ok(errors) => {
                 row.errors = errors;
                 println!("{row}");

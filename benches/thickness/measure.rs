@@ -2,52 +2,27 @@
 
 use glam::DVec3;
 use pillarforest::diag::Diagnostic;
-use pillarforest::groups::groups;
-use pillarforest::mimic::{Energy, depths};
-use pillarforest::relief::{Relief, relief};
+use pillarforest::relief::Relief;
 use pillarforest::scene::Scene;
-use pillarforest::steps::torn;
+use pillarforest::sight::Sight;
 use pillarforest::view::View;
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
-
-/// What one eye sees.
-pub struct Seen {
-    target: Target,
-    map: ViewMap,
-}
+use pillarforest::viewmap::{Image, SupportField};
+use pillarforest::words::sight::unseen;
 
 /// Error of the normals in degrees over the solid angle of what the eye sees: mean, median, and what 90 % lie below.
 pub type Errors = [f64; 3];
 
-/// Maps all views of a scene.
-pub fn seen(scene: &Scene) -> Result<Vec<Seen>, String> {
-    let field = SupportField::new(&scene.supports);
-    let map = |view: &View| {
-        let plane = view.plane();
-        let target = Target::new(view.target(), &plane).ok_or("models beside the eye")?;
-        let map = view_map(plane, &target, &field).map_err(|e| e.to_string())?;
-        Ok(Seen { target, map })
-    };
-    scene.views.iter().map(map).collect()
-}
-
-/// The relief of one view, and how far its normals are off.
-pub fn errors(scene: &Scene, view: &View, seen: &Seen) -> Result<Errors, String> {
-    let field = SupportField::new(&scene.supports);
-    let Seen { target, map } = seen;
-    let groups = groups(&view.name, map, target, &field).map_err(|p| told(&p))?;
-    if let (Energy::Normal(options), Some(steps)) = (scene.energy, &scene.steps) {
-        let torn = torn(steps, options, target, map, &field, &groups).map_err(|e| e.to_string())?;
-        let relief = relief(&torn.map, &torn.target, &field, &torn.groups, &torn.depths);
-        return Ok(normal_errors(&torn.map, &torn.target, &relief));
-    }
-    let depths = depths(scene.energy, target, map, &groups).map_err(|e| e.to_string())?;
-    let relief = relief(map, target, &field, &groups, &depths);
-    Ok(normal_errors(map, target, &relief))
+/// How far the normals of one view's relief are off.
+pub fn errors(scene: &Scene, view: &View, field: &SupportField) -> Result<Errors, String> {
+    let sight = Sight::new(view, field);
+    let sight = sight.map_err(|e| told(&unseen(&view.name, field.supports, &e)))?;
+    let shape = scene.relief.optimised(&sight).map_err(|e| e.to_string())?;
+    Ok(normal_errors(&sight.image, shape.relief()))
 }
 
 /// Compares the plane of every cell of a relief with the model's face there.
-fn normal_errors(map: &ViewMap, target: &Target, relief: &Relief) -> Errors {
+fn normal_errors(image: &Image, relief: &Relief) -> Errors {
+    let Image { target, map, .. } = image;
     let mut found: Vec<(f64, f64)> = Vec::new();
     for (cell, depth) in relief.depth.iter().enumerate() {
         let (Some(depth), Some(face)) = (depth, map.cells[cell].face) else {
