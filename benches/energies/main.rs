@@ -7,9 +7,10 @@
 //! quadratic one, which it equals in everything but time.
 
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::measure::{changed, mapped, relief_errors};
+use pillarforest::figures::measure::{changed, relief_errors, sights};
 use pillarforest::report::NormalError;
 use pillarforest::scene::Scene;
+use pillarforest::viewmap::SupportField;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -78,18 +79,19 @@ fn run(wishes: &Asked) -> Result<(), String> {
     println!("|---|---|---|---|---|---|");
     for energy in &wishes.energies {
         let scene = resolved(&text, wishes, energy)?;
-        for (view, seen) in scene.views.iter().zip(mapped(&scene)?) {
+        let field = SupportField::new(&scene.supports);
+        for sight in sights(&scene, &field)? {
             let start = Instant::now();
-            let errors = relief_errors(&scene, view, &seen);
+            let errors = relief_errors(&scene, &sight);
             let seconds = start.elapsed().as_secs_f64();
             match errors {
                 Ok(NormalError { mean, median, p90 }) => println!(
                     "| `{energy}` | {} | {seconds:.2} | {mean:.2} | {median:.2} | {p90:.2} |",
-                    view.name
+                    sight.name()
                 ),
                 Err(why) => println!(
                     "| `{energy}` | {} | {seconds:.2} | {why} | - | - |",
-                    view.name
+                    sight.name()
                 ),
             }
         }

@@ -15,9 +15,11 @@ mod plot;
 mod rows;
 
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::measure::{MappedView, changed, mapped, relief_errors};
+use pillarforest::figures::measure::{changed, relief_errors, sights};
 use pillarforest::report::NormalError;
 use pillarforest::scene::Scene;
+use pillarforest::sight::Sight;
+use pillarforest::viewmap::SupportField;
 use rows::{Measured, Rows};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -154,7 +156,6 @@ fn run(wishes: &Wishes) -> Result<(), String> {
 
 /// Computes what is wanted of one scene, thick layers first.
 fn measure_subject(subject: &Compared, wishes: &Wishes, rows: &mut Rows) -> Result<(), String> {
-    let mut seen: Option<Vec<MappedView>> = None;
     for surface in &SURFACES {
         for mm in THICKNESSES.into_iter().rev() {
             if !wishes.wants(surface.name, mm, rows.complete(subject.scene, surface, mm)) {
@@ -165,12 +166,8 @@ fn measure_subject(subject: &Compared, wishes: &Wishes, rows: &mut Rows) -> Resu
                 return Ok(());
             }
             let scene = resolved(subject, surface, mm, wishes.models.as_deref())?;
-            // What the eye sees does not depend on the layer.
-            let seen = match &seen {
-                Some(seen) => seen,
-                None => seen.insert(mapped(&scene)?),
-            };
-            measure_views(subject, surface, mm, &scene, seen, rows)?;
+            let field = SupportField::new(&scene.supports);
+            measure_views(subject, surface, mm, &scene, &sights(&scene, &field)?, rows)?;
         }
     }
     Ok(())
@@ -182,18 +179,18 @@ fn measure_views(
     surface: &SurfaceKind,
     mm: f64,
     scene: &Scene,
-    seen: &[MappedView],
+    sights: &[Sight],
     rows: &mut Rows,
 ) -> Result<(), String> {
-    for (view, seen) in scene.views.iter().zip(seen) {
+    for sight in sights {
         let mut row = Measured {
             scene: subject.scene.into(),
             surface: surface.name.into(),
             mm,
-            view: view.name.clone(),
+            view: sight.name().to_owned(),
             errors: [f64::NAN; 3],
         };
-        match relief_errors(scene, view, seen) {
+        match relief_errors(scene, sight) {
             Ok(NormalError { mean, median, p90 }) => {
                 row.errors = [mean, median, p90];
                 println!("{row}");

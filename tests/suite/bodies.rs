@@ -5,12 +5,10 @@ use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
-use pillarforest::groups::layer_in;
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
 use pillarforest::support::{HULL_MM, Slab};
-use pillarforest::viewmap::SupportField;
 
 /// A ball of 20 mm before the support, seen from in front and a little above.
 fn text(supports: &str) -> String {
@@ -187,10 +185,9 @@ fn outlines_lie_on_the_support_where_they_are_to() {
         let scene = good(&format!(
             "Plate(width: 80, height: 70, thickness: 8, at: (0, 20, 0), depth: (front: 4, back: 3, outline: {outline}))"
         ));
-        let (view, field) = (&scene.views[0], SupportField::new(&scene.supports));
-        let setting = Setting::of(&scene);
-        let Outcome { map, relief, .. } = setting.solved(scene.energy);
-        let slab = Slab::new(&scene.supports[0], view.eye).expect("a layer");
+        let Outcome { sight, relief, .. } = Setting::of(&scene).solved(scene.relief.energy());
+        let map = &sight.image.map;
+        let slab = Slab::new(&scene.supports[0], scene.views[0].eye).expect("a layer");
         let (mut ends, mut off) = (0, 0.0f64);
         for (c, cell) in map.cells.iter().enumerate() {
             let Some(depth) = relief.depth[c] else {
@@ -198,7 +195,7 @@ fn outlines_lie_on_the_support_where_they_are_to() {
             };
             for (k, z) in depth.into_iter().enumerate() {
                 let q = map.points[cell.corners[k] as usize];
-                let (near, far) = layer_in(&map, &field, &slab, c, k);
+                let (near, far) = sight.image.layer_in(&slab, c, k);
                 assert!(z >= near - 1e-9 && z <= far + 1e-9);
                 if cell.outline[k] {
                     ends += 1;

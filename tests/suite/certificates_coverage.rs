@@ -1,96 +1,56 @@
 //! Coverage and conflicts: against closed forms, samples of points, and small forests whose answers are known.
 
-use crate::shapes::{BLUE, EYE, MIDDLE, ORANGE, ball, base, bumpy, pillar, prism, ring, view};
+use crate::shapes::{
+    BLUE, EYE, MIDDLE, ORANGE, ball, base, bumpy, field, flat_layer, pillar, prism, ring, sighted,
+    view,
+};
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::carve::{Forest, ViewRelief, carve};
-use pillarforest::certify::Seen;
-use pillarforest::certify::conflicts::{Finished, SEAM_MM, Sighted, Trouble, sighted};
+use pillarforest::carve::{Forest, Operand, carve};
+use pillarforest::certify::conflicts::{self, Finished, SEAM_MM, Sighted, Trouble};
 use pillarforest::certify::coverage::{Cause, Coverage, coverage};
-use pillarforest::contest::{
-    CONTACT_MM, Claim, Contested, Frustum, Loss, Settlement, contested, settle,
-};
-use pillarforest::geom::{ImagePlane, SQUARE_ARCMIN};
-use pillarforest::groups::{Groups, groups, without};
+use pillarforest::contest::{CONTACT_MM, Contested, Frustum, Settlement, contested, settle};
+use pillarforest::geom::SQUARE_ARCMIN;
+use pillarforest::kinds;
 use pillarforest::mesh::{Solid, TriMesh};
-use pillarforest::mimic::depths;
 use pillarforest::relief::{Relief, relief};
 use pillarforest::scene::defaults;
-use pillarforest::support::{Datum, Layer, Support};
-use pillarforest::view::View;
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
+use pillarforest::sight::Sight;
+use pillarforest::support::{Datum, Support};
+use pillarforest::viewmap::SupportField;
+use pillarforest::words::contest::refused;
 use pillarforest::words;
 
-/// One eye with its map and groups.
-struct Sight {
-    view: View,
-    target: Target,
-    map: ViewMap,
-    groups: Groups,
-    lost: Vec<Loss>,
+fn sight(
+    name: &str,
+    eye: DVec3,
+    model: TriMesh,
+    field: &'static SupportField<'static>,
+) -> Sight<'static> {
+    sighted(view(name, eye, model, ORANGE), field)
 }
 
-impl Sight {
-    fn new(name: &str, eye: DVec3, model: TriMesh, field: &SupportField) -> Self {
-        let view = view(name, eye, model, ORANGE);
-        let plane = view.plane();
-        let target = Target::new(view.target(), &plane).expect("in front of the eye");
-        let map = view_map(plane, &target, field).expect("a map");
-        let groups = groups(name, &map, &target, field).expect("groups");
-        Self {
-            view,
-            target,
-            map,
-            groups,
-            lost: Vec::new(),
-        }
-    }
-
-    fn claim(&self) -> Claim<'_> {
-        Claim {
-            name: &self.view.name,
-            map: &self.map,
-            groups: &self.groups,
-        }
-    }
-
-    fn seen(&self) -> Seen<'_> {
-        Seen {
-            view: &self.view,
-            target: &self.target,
-            map: &self.map,
-            groups: &self.groups,
-            lost: &self.lost,
-        }
-    }
-
-    fn coverage(&self, field: &SupportField) -> Coverage {
-        coverage(&self.seen(), &["a", "b"], field, &[])
-    }
-
-    fn carried_arcmin2(&self) -> f64 {
-        let sum: f64 = self.groups.groups.iter().map(|g| g.solid_angle_sr).sum();
-        sum * SQUARE_ARCMIN
-    }
+fn coverage_of(sight: &Sight) -> Coverage {
+    coverage(sight, &["a", "b"], &[])
 }
 
-fn settled(sights: &[Sight], field: &SupportField, rule: Contested) -> Settlement {
-    let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
-    settle(&claims, field, rule).expect("no errors by this rule")
+fn carried_arcmin2(sight: &Sight) -> f64 {
+    let sum: f64 = sight.groups.groups.iter().map(|g| g.solid_angle_sr).sum();
+    sum * SQUARE_ARCMIN
+}
+
+fn settled(sights: &[Sight], rule: Contested) -> Settlement {
+    settle(sights, rule).expect("no errors by this rule")
 }
 
 /// Carries a settlement out.
-fn give_up(sights: &mut [Sight], settlement: &Settlement, field: &SupportField) {
-    for (sight, lost) in sights.iter_mut().zip(&settlement.lost) {
-        let cells: Vec<u32> = lost.iter().map(|l| l.cell).collect();
-        sight.groups = without(&sight.groups, &cells, &sight.map, &sight.target, field);
-        sight.lost.clone_from(lost);
-    }
-}
-
-fn left(sights: &[Sight], field: &SupportField) -> Vec<f64> {
-    let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
-    contested(&claims, field)
+fn give_up<'a>(sights: Vec<Sight<'a>>, settlement: &Settlement) -> Vec<Sight<'a>> {
+    let lost = settlement.lost.iter().cloned();
+    sights
+        .into_iter()
+        .zip(lost)
+        .map(|(s, l)| s.without(l))
+        .collect()
 }
 
 /// Numbers from 0 to 1, the same at every run (Numerical Recipes' generator).
@@ -223,21 +183,14 @@ fn frusta_that_touch_do_not_meet() {
 /// View "b" looks along -x at a thin pillar beside the sight of view "a"; its layer stands out into that sight, up to x = -3.
 fn crossing() -> Vec<Support> {
     let mut thin = pillar(DVec2::new(-9.0, -60.0), 1.5, 48, Datum::Plane);
-    thin.layer = Some(Layer {
-        datum: Datum::Plane,
-        front: 6.0,
-        back: 0.5,
-        core: 0.2,
-        through: false,
-        hull: false,
-    });
+    thin.layer = Some(flat_layer(6.0, 0.5, 0.2));
     vec![pillar(DVec2::ZERO, 14.0, 96, Datum::Plane), thin]
 }
 
 #[test]
 fn a_layer_in_the_sight_of_another_view_takes_just_the_rays_it_meets() {
     let supports = crossing();
-    let field = SupportField::new(&supports);
+    let field = field(&supports);
     let block = prism(
         &[
             DVec2::new(-20.0, -66.0),
@@ -248,17 +201,17 @@ fn a_layer_in_the_sight_of_another_view_takes_just_the_rays_it_meets() {
         2.0,
         38.0,
     );
-    let mut sights = [
-        Sight::new("b", DVec3::new(150.0, -60.0, 20.0), block, &field),
-        Sight::new("a", EYE, ball(MIDDLE, 12.0, 24), &field),
+    let sights = vec![
+        sight("b", DVec3::new(150.0, -60.0, 20.0), block, field),
+        sight("a", EYE, ball(MIDDLE, 12.0, 24), field),
     ];
-    let settlement = settled(&sights, &field, Contested::First);
+    let settlement = settled(&sights, Contested::First);
     assert!(settlement.lost[0].is_empty());
     // The layer's near end, 153 mm from the eye of "b", is as wide as the pillar's outline there.
     let half = 153.0 * (1.5f64 / 159.0).asin().tan();
     let border = -3.0 / (90.0 + half);
     let lost: Vec<u32> = settlement.lost[1].iter().map(|l| l.cell).collect();
-    let map = &sights[1].map;
+    let map = &sights[1].image.map;
     let mut tested = [0, 0];
     for (c, group) in sights[1].groups.of_cell.iter().enumerate() {
         let left = map
@@ -280,40 +233,40 @@ fn a_layer_in_the_sight_of_another_view_takes_just_the_rays_it_meets() {
         ("b", "a")
     );
     assert_eq!(contest.with_support, supports[1].name);
-    give_up(&mut sights, &settlement, &field);
-    assert_eq!(left(&sights, &field), [0.0, 0.0]);
-    let coverage = sights[1].coverage(&field);
+    let sights = give_up(sights, &settlement);
+    assert_eq!(contested(&sights), [0.0, 0.0]);
+    let coverage = coverage_of(&sights[1]);
     assert!(coverage.gaps.iter().all(|g| g.cause == Cause::OtherView));
     let gaps: f64 = coverage.gaps.iter().map(|g| g.arcmin2).sum();
     assert!((gaps / contest.arcmin2 - 1.0).abs() < 1e-9);
 }
 
 /// Two views of one round pillar, a quarter turn apart: a small ball for "a", a large one for "b".
-fn sharing<'a>(field: &'a SupportField<'a>, heights: [f64; 2]) -> [Sight; 2] {
+fn sharing(field: &'static SupportField<'static>, heights: [f64; 2]) -> Vec<Sight<'static>> {
     let at = |z: f64| DVec3::new(0.0, 0.0, z);
     let side = DVec3::new(150.0, 0.0, 20.0);
-    [
-        Sight::new("a", EYE, ball(at(heights[0]), 4.0, 12), field),
-        Sight::new("b", side, ball(at(heights[1]), 9.0, 16), field),
+    vec![
+        sight("a", EYE, ball(at(heights[0]), 4.0, 12), field),
+        sight("b", side, ball(at(heights[1]), 9.0, 16), field),
     ]
 }
 
 #[test]
 fn views_at_different_heights_of_one_pillar_do_not_meet() {
     let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
-    let field = SupportField::new(&supports);
-    let settlement = settled(&sharing(&field, [33.0, 15.0]), &field, Contested::First);
+    let field = field(&supports);
+    let settlement = settled(&sharing(field, [33.0, 15.0]), Contested::First);
     assert_eq!(settlement.contests, [vec![], vec![]]);
 }
 
 #[test]
 fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
     let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
-    let field = SupportField::new(&supports);
+    let field = field(&supports);
     for (rule, loser) in [(Contested::First, 1), (Contested::Largest, 0)] {
-        let mut sights = sharing(&field, [20.0, 20.0]);
-        let before = [0, 1].map(|v: usize| sights[v].carried_arcmin2());
-        let settlement = settled(&sights, &field, rule);
+        let sights = sharing(field, [20.0, 20.0]);
+        let before = [0, 1].map(|v: usize| carried_arcmin2(&sights[v]));
+        let settlement = settled(&sights, rule);
         let names = ["a", "b"];
         assert!(settlement.lost[1 - loser].is_empty(), "{rule:?}");
         assert!(!settlement.lost[loser].is_empty(), "{rule:?}");
@@ -322,10 +275,10 @@ fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
             assert_eq!(contests[0].with_view, names[1 - own]);
             assert_eq!(contests[0].lost_by, names[loser]);
         }
-        give_up(&mut sights, &settlement, &field);
-        assert_eq!(left(&sights, &field), [0.0, 0.0], "{rule:?}");
-        let lost = before[loser] - sights[loser].carried_arcmin2();
-        let coverage = sights[loser].coverage(&field);
+        let sights = give_up(sights, &settlement);
+        assert_eq!(contested(&sights), [0.0, 0.0], "{rule:?}");
+        let lost = before[loser] - carried_arcmin2(&sights[loser]);
+        let coverage = coverage_of(&sights[loser]);
         let owned = coverage.gaps.iter().filter(|g| g.cause == Cause::OtherView);
         let told: f64 = owned.map(|g| g.arcmin2).sum();
         assert!((told / lost - 1.0).abs() < 1e-9, "{told} told, {lost} lost");
@@ -333,10 +286,10 @@ fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
         let told = words::coverage::warnings(names[loser], &coverage, "pillar");
         assert!(told[0].message.contains(&supports[0].name), "{told:?}");
     }
-    let sights = sharing(&field, [20.0, 20.0]);
-    let claims: Vec<Claim> = sights.iter().map(Sight::claim).collect();
-    let errors = settle(&claims, &field, Contested::Error).expect_err("contested");
+    let sights = sharing(field, [20.0, 20.0]);
+    let errors = settle(&sights, Contested::Error).expect_err("contested");
     assert_eq!(errors.len(), 1);
+    let message = refused(&errors[0]).message;
     for part in [
         "\"a\"",
         "\"b\"",
@@ -344,7 +297,7 @@ fn contested_surface_goes_to_the_first_or_to_the_larger_or_to_nobody() {
         "square arc-minutes",
         " mm",
     ] {
-        assert!(errors[0].message.contains(part), "{}", errors[0].message);
+        assert!(message.contains(part), "{message}");
     }
 }
 
@@ -366,13 +319,13 @@ fn opposite_reliefs_on_the_faces_of_one_plate_do_not_meet() {
     };
     let meets = |thick: f64| {
         let supports = [plate(thick)];
-        let field = SupportField::new(&supports);
+        let field = field(&supports);
         let model = || ball(MIDDLE, 8.0, 12);
         let sights = [
-            Sight::new("a", EYE, model(), &field),
-            Sight::new("b", DVec3::new(0.0, 150.0, 20.0), model(), &field),
+            sight("a", EYE, model(), field),
+            sight("b", DVec3::new(0.0, 150.0, 20.0), model(), field),
         ];
-        left(&sights, &field).iter().sum::<f64>() > 0.0
+        contested(&sights).iter().sum::<f64>() > 0.0
     };
     // A layer ends 1 mm behind its face, the other's backing 1.8 mm or less behind the middle plane.
     assert!(!meets(6.0));
@@ -382,12 +335,12 @@ fn opposite_reliefs_on_the_faces_of_one_plate_do_not_meet() {
 #[test]
 fn a_pillar_that_is_too_short_is_named_with_what_it_lacks() {
     let supports = [pillar(DVec2::ZERO, 5.0, 192, Datum::Plane)];
-    let field = SupportField::new(&supports);
+    let field = field(&supports);
     // A strip 4 mm wide and 25 mm nearer than the axis, whose image ends above the pillar.
     let strip = [(-2.0, -25.0), (2.0, -25.0), (2.0, -24.0), (-2.0, -24.0)];
     let strip: Vec<DVec2> = strip.iter().map(|p| DVec2::from(*p)).collect();
-    let sight = Sight::new("a", EYE, prism(&strip, 14.0, 44.0), &field);
-    let coverage = sight.coverage(&field);
+    let sight = sight("a", EYE, prism(&strip, 14.0, 44.0), field);
+    let coverage = coverage_of(&sight);
     assert_eq!(coverage.gaps.len(), 1, "{:?}", coverage.gaps);
     let gap = &coverage.gaps[0];
     assert_eq!(gap.cause, Cause::PillarTooShort);
@@ -435,14 +388,14 @@ fn gaps_beside_a_pillar_and_before_the_base_have_their_causes() {
         pillar(DVec2::ZERO, 5.0, 64, Datum::Plane),
         base(ring(DVec2::ZERO, 60.0, 96)),
     ];
-    let field = SupportField::new(&supports);
-    let sight = Sight::new(
+    let field = field(&supports);
+    let sight = sight(
         "a",
         DVec3::new(0.0, -150.0, 40.0),
         ball(DVec3::new(0.0, 0.0, 12.0), 11.0, 24),
-        &field,
+        field,
     );
-    let coverage = sight.coverage(&field);
+    let coverage = coverage_of(&sight);
     let of = |cause: Cause| {
         let gaps = coverage.gaps.iter().filter(move |g| g.cause == cause);
         gaps.map(|g| g.arcmin2).collect::<Vec<_>>()
@@ -466,33 +419,25 @@ fn gaps_beside_a_pillar_and_before_the_base_have_their_causes() {
 }
 
 /// The finished forest of some views.
-struct Built<'a> {
-    field: &'a SupportField<'a>,
-    sights: Vec<Sight>,
+struct Built {
+    sights: Vec<Sight<'static>>,
     reliefs: Vec<Relief>,
     forest: Forest,
 }
 
-impl<'a> Built<'a> {
-    fn new(field: &'a SupportField<'a>, sights: Vec<Sight>) -> Self {
+impl Built {
+    fn new(sights: Vec<Sight<'static>>) -> Self {
         let of_sight = |s: &Sight| {
-            let depths = depths(defaults::ENERGY, &s.target, &s.map, &s.groups).expect("depths");
-            relief(&s.map, &s.target, field, &s.groups, &depths)
+            let depths = kinds::depths(defaults::ENERGY, s).expect("depths");
+            relief(s, &depths)
         };
         let reliefs: Vec<Relief> = sights.iter().map(of_sight).collect();
-        let views: Vec<ViewRelief> = sights
-            .iter()
-            .zip(&reliefs)
-            .map(|(s, relief)| ViewRelief {
-                name: &s.view.name,
-                map: &s.map,
-                groups: &s.groups,
-                relief,
-            })
+        let views = sights.iter().zip(&reliefs);
+        let operands: Vec<Operand> = views
+            .map(|(sight, relief)| Operand::Relief { sight, relief })
             .collect();
-        let forest = carve(field, &views).expect("a forest");
+        let forest = carve(sights[0].image.field, &operands).expect("a forest");
         Self {
-            field,
             sights,
             reliefs,
             forest,
@@ -501,16 +446,11 @@ impl<'a> Built<'a> {
 
     fn sighted(&self, forest: &Forest, v: usize) -> Sighted {
         let bvh = Bvh::new(forest.whole.mesh());
-        let names = self.sights.iter().map(|s| s.view.name.as_str()).collect();
-        let finished = Finished::new(forest, &bvh, self.field, names);
-        let given_up = &forest.given_up[v];
-        sighted(
-            &self.sights[v].seen(),
-            v,
-            &self.reliefs[v],
-            given_up,
-            &finished,
-        )
+        let names = self.sights.iter().map(Sight::name).collect();
+        let sight = &self.sights[v];
+        let finished = Finished::new(forest, &bvh, sight.image.field, names);
+        let (relief, given_up) = (&self.reliefs[v], &forest.given_up[v]);
+        conflicts::sighted(&sight.into(), v, relief, given_up, &finished)
     }
 }
 
@@ -518,11 +458,11 @@ impl<'a> Built<'a> {
 fn rays_find_a_finished_forest_free_and_a_box_before_it() {
     let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
     let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::Plane));
-    let field = SupportField::new(&supports);
-    let built = Built::new(&field, vec![Sight::new("a", EYE, bumpy(12.0), &field)]);
+    let field = field(&supports);
+    let built = Built::new(vec![sight("a", EYE, bumpy(12.0), field)]);
     let free = built.sighted(&built.forest, 0);
     assert_eq!(free.disturbances, []);
-    let whole = built.sights[0].carried_arcmin2();
+    let whole = carried_arcmin2(&built.sights[0]);
     assert!(free.small_arcmin2 < 1e-4 * whole, "{free:?}");
     assert!(free.rays > 10_000);
 
@@ -563,8 +503,8 @@ fn rays_find_a_finished_forest_free_and_a_box_before_it() {
 #[test]
 fn rays_miss_a_relief_that_is_not_there() {
     let supports = [pillar(DVec2::ZERO, 14.0, 96, Datum::Plane)];
-    let field = SupportField::new(&supports);
-    let built = Built::new(&field, vec![Sight::new("a", EYE, bumpy(9.0), &field)]);
+    let field = field(&supports);
+    let built = Built::new(vec![sight("a", EYE, bumpy(9.0), field)]);
     let far = prism(&ring(DVec2::new(0.0, 40.0), 3.0, 24), 0.0, 40.0);
     let empty = Forest {
         whole: Solid::new(far).expect("a pillar"),
@@ -579,22 +519,22 @@ fn rays_miss_a_relief_that_is_not_there() {
             .all(|d| d.trouble == Trouble::Missing)
     );
     let missing: f64 = found.disturbances.iter().map(|d| d.arcmin2).sum();
-    assert!((missing / built.sights[0].carried_arcmin2() - 1.0).abs() < 1e-9);
+    assert!((missing / carried_arcmin2(&built.sights[0]) - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn after_settling_the_finished_forest_is_free_for_both() {
     let supports = [pillar(DVec2::ZERO, 10.0, 64, Datum::Plane)];
-    let field = SupportField::new(&supports);
-    let mut sights = sharing(&field, [22.0, 16.0]);
-    let settlement = settled(&sights, &field, Contested::First);
-    give_up(&mut sights, &settlement, &field);
-    assert!(sights[1].carried_arcmin2() > 0.0);
-    let built = Built::new(&field, sights.into());
+    let field = field(&supports);
+    let sights = sharing(field, [22.0, 16.0]);
+    let settlement = settled(&sights, Contested::First);
+    let sights = give_up(sights, &settlement);
+    assert!(carried_arcmin2(&sights[1]) > 0.0);
+    let built = Built::new(sights);
     for v in 0..2 {
         let found = built.sighted(&built.forest, v);
         // Hairs of the pillar at the outlines of two small models, and nothing of the other view.
-        let whole = built.sights[v].carried_arcmin2();
+        let whole = carried_arcmin2(&built.sights[v]);
         let wrong = found.disturbances.iter().any(|d| d.with_view.is_some());
         let all: f64 = found.disturbances.iter().map(|d| d.arcmin2).sum();
         assert!(!wrong && all < 0.002 * whole, "view {v}: {found:?}");
@@ -604,15 +544,13 @@ fn after_settling_the_finished_forest_is_free_for_both() {
 #[test]
 fn models_of_one_view_are_counted_apart() {
     let supports = [pillar(DVec2::new(-8.0, 0.0), 7.0, 64, Datum::Plane)];
-    let field = SupportField::new(&supports);
-    let mut sight = Sight::new("a", EYE, ball(DVec3::new(-8.0, 0.0, 20.0), 4.0, 12), &field);
-    let other = view("c", EYE, ball(DVec3::new(8.0, 0.0, 20.0), 4.0, 12), BLUE);
-    sight.view.models.extend(other.models);
-    let plane = ImagePlane::looking_at(EYE, MIDDLE);
-    sight.target = Target::new(sight.view.target(), &plane).expect("in front");
-    sight.map = view_map(plane, &sight.target, &field).expect("a map");
-    sight.groups = groups("a", &sight.map, &sight.target, &field).expect("groups");
-    let coverage = sight.coverage(&field);
+    let field = field(&supports);
+    let ball_at = |x: f64| ball(DVec3::new(x, 0.0, 20.0), 4.0, 12);
+    let mut both = view("a", EYE, ball_at(-8.0), ORANGE);
+    both.models
+        .extend(view("c", EYE, ball_at(8.0), BLUE).models);
+    both.look_at = MIDDLE;
+    let coverage = coverage_of(&sighted(both, field));
     let [on, off] = &coverage.models[..] else {
         panic!("two models")
     };

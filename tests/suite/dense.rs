@@ -179,14 +179,14 @@ pub fn allowed(
     let way = axis - eye.truncate();
     let distance = way.length();
     let speed = direction.truncate().dot(way / distance);
-    Some(match layer.datum {
+    Some(match layer.datum() {
         Datum::Plane => (
             (distance - layer.front) / speed,
-            (distance + layer.back) / speed,
+            (distance + layer.back()) / speed,
         ),
         Datum::Surface => (
             surface * (1.0 - layer.front / distance),
-            surface * (1.0 + layer.back / distance),
+            surface * (1.0 + layer.back() / distance),
         ),
     })
 }

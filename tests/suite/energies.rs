@@ -1,6 +1,6 @@
 //! The paper's variants of its energy, and what it compares itself with: identities, closed forms, one program in two forms.
 
-use crate::shapes::{MIDDLE, Outcome, Setting, ball, bumpy, prism, wavy};
+use crate::shapes::{MIDDLE, Outcome, Setting, ball, bumpy, flat_layer, prism, wavy};
 use glam::{DMat3, DVec2, DVec3};
 use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::geom::solid_angle;
@@ -9,8 +9,8 @@ use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
     CurvatureForm, CurvatureOptions, Ending, Energy, FaceWeight, GradientOptions, NormalOptions,
 };
-use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::SupportField;
+use pillarforest::support::{Layer, Support, SupportKind};
+use pillarforest::words::iterated::unsettled;
 
 const PAPER: CurvatureOptions = CurvatureOptions::PAPER;
 const ABSOLUTE: CurvatureOptions = CurvatureOptions {
@@ -71,14 +71,7 @@ fn plate(layer: Layer) -> Support {
 
 /// A model before a plate whose layer is `thickness` thick, 5 : 2 before and behind its middle plane.
 fn on_plate(model: TriMesh, thickness: f64) -> Setting {
-    let layer = Layer {
-        datum: Datum::Plane,
-        front: thickness * 5.0 / 7.0,
-        back: thickness * 2.0 / 7.0,
-        core: 0.0,
-        through: false,
-        hull: false,
-    };
+    let layer = flat_layer(thickness * 5.0 / 7.0, thickness * 2.0 / 7.0, 0.0);
     let mut setting = Setting::new(model, vec![plate(layer)]);
     setting.eye = DVec3::new(0.0, -300.0, 20.0);
     setting
@@ -131,7 +124,7 @@ fn iterating_converges_on_the_box() {
     let iterated = depths.iterated.expect("rounds");
     assert_eq!(iterated.ending, Ending::Converged, "{iterated:?}");
     assert_eq!(iterated.kept, iterated.rounds.len());
-    assert_eq!(iterated.warning(), None);
+    assert_eq!(unsettled("test", &iterated), None);
     // As in the paper's Fig 6 normals come closer.
     assert!(
         iterated.kept_deg < 0.97 * iterated.linearised_deg,
@@ -159,7 +152,7 @@ fn an_iteration_that_fails_says_so_and_keeps_its_best_round() {
     let depths = setting.solved(Energy::Curvature(light)).depths;
     let iterated = depths.iterated.expect("rounds");
     assert_ne!(iterated.ending, Ending::Converged, "{iterated:?}");
-    assert!(iterated.warning().is_some());
+    assert!(unsettled("test", &iterated).is_some());
     let least = iterated.rounds.iter().map(|r| r.turned_deg);
     let least = least.fold(iterated.linearised_deg, f64::min);
     assert_eq!(iterated.kept_deg, least);
@@ -177,7 +170,7 @@ fn curvature_energy(
     scaled: bool,
     bent: bool,
 ) -> f64 {
-    let mesh = &outcome.target.mesh;
+    let mesh = &outcome.target().mesh;
     let geometry = FaceGeometry::new(mesh);
     let areas = geometry.vertex_areas(mesh);
     let laplacian = |at: &dyn Fn(usize) -> DVec3| {
@@ -192,7 +185,7 @@ fn curvature_energy(
         }
         sums
     };
-    let ray = |i: usize| mesh.vertices[i] - outcome.map.plane.eye;
+    let ray = |i: usize| mesh.vertices[i] - outcome.map().plane.eye;
     let model = laplacian(&ray);
     let moved = laplacian(&|i| s[i] * ray(i));
     let term = |i: usize| {
@@ -206,7 +199,7 @@ fn curvature_energy(
 
 /// Vertices of which the eye sees less than half, by the faces around them that are turned to it.
 fn hidden(outcome: &Outcome) -> Vec<bool> {
-    let (mesh, map) = (&outcome.target.mesh, &outcome.map);
+    let (mesh, map) = (&outcome.target().mesh, outcome.map());
     let mut shares = vec![0.0; mesh.vertices.len()];
     let mut add = |face: usize, share: f64| {
         let corners = mesh.faces[face];
@@ -230,8 +223,8 @@ fn with_a_loose_layer_the_model_itself_is_the_result() {
     let all = energies().into_iter();
     for energy in all.filter(|e| !matches!(e, Energy::Gradient(_))) {
         let outcome = Setting::roomy().solved(energy);
-        let seen = outcome.map.cells.iter().filter_map(|c| c.face);
-        let corners = seen.flat_map(|f| outcome.target.mesh.faces[f as usize]);
+        let seen = outcome.map().cells.iter().filter_map(|c| c.face);
+        let corners = seen.flat_map(|f| outcome.target().mesh.faces[f as usize]);
         let s = corners.map(|v| outcome.depths.s[v as usize]);
         let (lo, hi) = s.fold((f64::MAX, f64::MIN), |(lo, hi), s| (lo.min(s), hi.max(s)));
         assert!(hi / lo - 1.0 < 1e-3, "{energy:?}: {lo} to {hi}");
@@ -242,11 +235,10 @@ fn with_a_loose_layer_the_model_itself_is_the_result() {
 fn every_energy_keeps_every_bound() {
     let plate = on_plate(bumpy(12.0), 3.0);
     for setting in [Setting::tight(), plate] {
-        let field = SupportField::new(&setting.supports);
         for energy in energies() {
             let outcome = setting.solved(energy);
-            let (map, groups, relief) = (&outcome.map, &outcome.groups, &outcome.relief);
-            let outside = bound_violation_mm(map, &field, groups, relief);
+            let relief = &outcome.relief;
+            let outside = bound_violation_mm(&outcome.sight, relief);
             assert!(outside < 1e-6, "{energy:?}: {outside} mm");
             assert!(relief.clamp_mm < 1e-6, "{energy:?}: {} mm", relief.clamp_mm);
             let claimed = outcome.depths.solved.not_an_optimum.is_none();
@@ -311,7 +303,7 @@ fn absolute_bounds_give_the_best_that_lies_in_the_layer_itself() {
         ..PAPER
     };
     let [free, held] = [PAPER, absolute].map(|o| setting.solved(Energy::Curvature(o)));
-    assert_eq!(free.groups.groups.len(), 1);
+    assert_eq!(free.groups().groups.len(), 1);
     assert_eq!(held.depths.mu, [1.0]);
     assert!(held.relief.clamp_mm < 1e-6);
     // Scaled back, what a free scale gave lies in the same bounds, so that it is no better there; nor is the other in the free one's gauge.
@@ -360,7 +352,7 @@ fn linear_compression_is_a_linear_function_of_depth() {
     let (near, far) = (300.0 - thickness * 5.0 / 7.0, 300.0 + thickness * 2.0 / 7.0);
     // Of every bound: the model's depth there, and the relief's.
     let points: Vec<(f64, f64)> = outcome
-        .groups
+        .groups()
         .bounds
         .iter()
         .map(|b| {
@@ -429,13 +421,13 @@ fn gradients_are_attenuated_by_their_logarithm() {
         let depth = |x: f64| {
             let near = |v: &DVec3| (v.x - x).abs() < 1e-9 && (v.z - MIDDLE.z).abs() < 1e-9;
             let v = outcome
-                .target
+                .target()
                 .mesh
                 .vertices
                 .iter()
                 .position(near)
                 .expect("a vertex");
-            outcome.target.depth[v] * outcome.depths.s[v] / outcome.depths.mu[0]
+            outcome.target().depth[v] * outcome.depths.s[v] / outcome.depths.mu[0]
         };
         // Away from the ridge and from the rim.
         let found = (depth(-8.0) - depth(-4.0)) / (depth(8.0) - depth(4.0));

@@ -1,6 +1,6 @@
 //! What is promised on every ray: bounds, depth orders, optimality, independence of the file's order.
 
-use crate::shapes::{MIDDLE, Outcome, Setting, ball, wavy};
+use crate::shapes::{MIDDLE, Outcome, Setting, ball, extent, wavy};
 use glam::{DVec2, DVec3};
 use ndarray::{Array1, Array2};
 use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
@@ -33,7 +33,7 @@ fn contoured(datum: Datum) -> Setting {
     let little = ball(MIDDLE + DVec3::new(2.0, -16.0, 2.0), 3.0, 8);
     setting.model.append(&little);
     for layer in setting.supports.iter_mut().filter_map(|s| s.layer.as_mut()) {
-        layer.datum = datum;
+        layer.extent = extent(datum, layer.back());
     }
     setting
 }
@@ -78,12 +78,12 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
         let clamp = solved.relief.clamp_mm;
         assert!(clamp < 1e-6, "{energy:?}: clamped by {clamp} mm");
         let field = SupportField::new(&setting.supports);
-        let told = bound_violation_mm(&solved.map, &field, &solved.groups, &solved.relief);
+        let told = bound_violation_mm(&solved.sight, &solved.relief);
         assert!(told < 1e-6, "{told} mm");
         let mut numbers = Numbers(1);
         let (mut rays, mut off) = (0, 0);
         for (c, corners) in solved.relief.depth.iter().enumerate() {
-            let (Some(z), Some(s)) = (corners, solved.map.cells[c].support) else {
+            let (Some(z), Some(s)) = (corners, solved.map().cells[c].support) else {
                 continue;
             };
             let support = &setting.supports[s as usize];
@@ -94,10 +94,10 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
             let towards = *axis - setting.eye.truncate();
             for _ in 0..8 {
                 let beta = numbers.inside();
-                let triangle = solved.map.triangle(c);
+                let triangle = solved.map().triangle(c);
                 let q: DVec2 = (0..3).map(|k| beta[k] * triangle[k]).sum();
                 let depth = 1.0 / (0..3).map(|k| beta[k] / z[k]).sum::<f64>();
-                let direction = solved.map.plane.direction(q);
+                let direction = solved.map().plane.direction(q);
                 // How far the relief stands behind what its layer is measured from, millimetres at the axis.
                 let behind = match datum {
                     Datum::Plane => {
@@ -115,7 +115,7 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
                     }
                 };
                 rays += 1;
-                off += usize::from(!(-layer.front - 1e-6..=layer.back + 1e-6).contains(&behind));
+                off += usize::from(!(-layer.front - 1e-6..=layer.back() + 1e-6).contains(&behind));
             }
         }
         // Merging cells thinner than 0.002 mm may leave a ray on the next facet of a surface.
@@ -133,14 +133,8 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
 
 /// Rays through random points of random faces on which two sheets of one support have changed places, of all with two.
 fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) {
-    let Outcome {
-        target,
-        map,
-        groups,
-        depths,
-        ..
-    } = solved;
-    let field = SupportField::new(&setting.supports);
+    let (target, map, groups) = (solved.target(), solved.map(), solved.groups());
+    let (field, depths) = (SupportField::new(&setting.supports), &solved.depths);
     let mut seen: Vec<(u32, u32)> = Vec::new();
     for (c, cell) in map.cells.iter().enumerate() {
         if let (Some(f), Some(g)) = (cell.face, groups.of_cell[c]) {
@@ -194,7 +188,7 @@ fn sheets_keep_their_order_on_every_ray() {
     let setting = contoured(Datum::Plane);
     let with = setting.solved(ENERGIES[0]);
     assert_eq!(with.depths.solved.broken, 0, "{:?}", with.depths.solved);
-    assert_eq!(order_inversions(&with.map, &with.target, &with.relief), 0);
+    assert_eq!(order_inversions(&with.sight.image, &with.relief), 0);
     let (wrong, met) = inverted(&setting, &with, 3000);
     assert!(met > 300 && wrong == 0, "{wrong} of {met}");
     // The same count must find what is wrong when nothing keeps the order.
@@ -206,16 +200,14 @@ fn sheets_keep_their_order_on_every_ray() {
     let without = setting.solved(free);
     let (wrong, met) = inverted(&setting, &without, 3000);
     assert!(wrong > 10, "{wrong} of {met}");
-    assert!(order_inversions(&without.map, &without.target, &without.relief) > 10);
+    assert!(order_inversions(&without.sight.image, &without.relief) > 10);
 }
 
 #[test]
 fn a_certificate_finds_what_is_wrong_with_a_relief() {
     let setting = Setting::tight();
     let solved = setting.solved(ENERGIES[0]);
-    let field = SupportField::new(&setting.supports);
-    let violation =
-        |relief: &Relief| bound_violation_mm(&solved.map, &field, &solved.groups, relief);
+    let violation = |relief: &Relief| bound_violation_mm(&solved.sight, relief);
     assert_eq!(violation(&solved.relief), 0.0);
     let cell = solved
         .relief

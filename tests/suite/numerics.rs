@@ -9,8 +9,10 @@ use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
     CurvatureOptions, Energy, FaceWeight, NormalOptions, Program, Row, RowKind, SolveError, solve,
 };
+use pillarforest::sight::Unseen;
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, ViewMap};
+use pillarforest::viewmap::{Image, SupportField, ViewMap};
+use pillarforest::words::sight::unseen;
 
 const NORMAL: Energy = Energy::Normal(NormalOptions {
     weight: FaceWeight::Area,
@@ -35,12 +37,7 @@ impl Setting {
             else {
                 panic!("pillars only")
             };
-            let layer = s.layer.map(|l| Layer {
-                front: l.front * scale,
-                back: l.back * scale,
-                core: l.core * scale,
-                ..l
-            });
+            let resized = |l: Layer| l.resized(l.front * scale, l.back() * scale, l.core * scale);
             Support {
                 name: s.name.clone(),
                 kind: SupportKind::Pillar {
@@ -50,7 +47,7 @@ impl Setting {
                     top: height(*top),
                     round: *round,
                 },
-                layer,
+                layer: s.layer.map(resized),
                 mesh: s.mesh.transformed(by),
             }
         };
@@ -66,9 +63,9 @@ impl Setting {
 impl Outcome {
     /// Vertices of faces that the eye sees.
     fn seen_vertices(&self) -> Vec<usize> {
-        let faces = self.map.cells.iter().filter_map(|c| c.face);
+        let faces = self.map().cells.iter().filter_map(|c| c.face);
         let mut list: Vec<usize> = faces
-            .flat_map(|f| self.target.mesh.faces[f as usize])
+            .flat_map(|f| self.target().mesh.faces[f as usize])
             .map(|v| v as usize)
             .collect();
         list.sort_unstable();
@@ -85,7 +82,7 @@ impl Outcome {
 
     /// How far the bounds are overstepped if relative depths are brought back onto their supports by `back(s, mu)`, in widths.
     fn excess(&self, back: impl Fn(f64, f64) -> f64) -> f64 {
-        let excess = self.groups.bounds.iter().map(|b| {
+        let excess = self.groups().bounds.iter().map(|b| {
             let s = b.anchor.relative_depth(&self.depths.s);
             let scaled = back(s, self.depths.mu[b.group as usize]);
             (scaled - b.upper).max(b.lower - scaled) / (b.upper - b.lower)
@@ -113,7 +110,7 @@ fn the_view_map_covers_the_solid_angle_of_a_ball() {
         ball(MIDDLE, 12.0, 40),
         vec![pillar(DVec2::ZERO, 30.0, 64, Datum::Plane)],
     );
-    let (target, map) = setting.seen();
+    let Image { target, map, .. } = setting.seen();
     let turned_to_eye = (0..target.mesh.faces.len()).map(|f| {
         let [a, b, c] = target.mesh.corners(f).map(|p| p - EYE);
         solid_angle(a, b, c)
@@ -127,7 +124,7 @@ fn the_view_map_covers_the_solid_angle_of_a_ball() {
 
 #[test]
 fn cells_fill_their_window_without_overlap() {
-    let (target, map) = Setting::tight().seen();
+    let Image { target, map, .. } = Setting::tight().seen();
     let first = target.image[0];
     let (lo, hi) = target
         .image
@@ -146,7 +143,7 @@ fn cells_fill_their_window_without_overlap() {
 #[test]
 fn every_ray_meets_what_its_cell_says() {
     let setting = Setting::tight();
-    let (target, map) = setting.seen();
+    let Image { target, map, .. } = setting.seen();
     let field = SupportField::new(&setting.supports);
     let plane = map.plane;
     let mut wrong = 0;
@@ -180,10 +177,10 @@ fn a_ball_hides_the_ball_behind_it() {
         ball(MIDDLE + 30.0 * DVec3::Y, 8.0, 24),
     );
     let supports = vec![pillar(DVec2::ZERO, 30.0, 64, Datum::Plane)];
-    let alone = seen_sr(&Setting::new(front.clone(), supports.clone()).seen().1);
+    let alone = seen_sr(&Setting::new(front.clone(), supports.clone()).seen().map);
     let mut both = front.clone();
     both.append(&behind);
-    let (_, map) = Setting::new(both, supports).seen();
+    let map = Setting::new(both, supports).seen().map;
     assert_near(seen_sr(&map), alone, 1e-6);
     let last = front.faces.len() as u32;
     assert!(map.cells.iter().all(|c| c.face.is_none_or(|f| f < last)));
@@ -196,7 +193,7 @@ fn a_wide_pillar_covers_everything_and_a_thin_one_its_share() {
             ball(MIDDLE, 12.0, 40),
             vec![pillar(DVec2::ZERO, radius, 256, Datum::Plane)],
         );
-        let (_, map) = setting.seen();
+        let map = setting.seen().map;
         let carried = |c: &usize| map.cells[*c].face.is_some() && map.cells[*c].support.is_some();
         let cells = (0..map.cells.len()).filter(carried);
         cells.map(|c| map.solid_angle(c)).sum::<f64>() / seen_sr(&map)
@@ -227,7 +224,7 @@ fn without_binding_bounds_the_model_itself_is_the_optimum() {
 fn a_tight_layer_changes_the_shape() {
     for energy in [NORMAL, CURVATURE] {
         let outcome = Setting::tight().solved(energy);
-        assert!(outcome.groups.groups.len() >= 3);
+        assert!(outcome.groups().groups.len() >= 3);
         assert!(outcome.spread() > 0.01, "{energy:?}");
         assert!(outcome.depths.solved.optimality.active > 10);
     }
@@ -238,9 +235,13 @@ fn every_group_touches_its_far_bound_and_oversteps_none() {
     for setting in [Setting::tight(), Setting::roomy()] {
         for energy in [NORMAL, CURVATURE] {
             let outcome = setting.solved(energy);
-            for g in 0..outcome.groups.groups.len() {
+            for g in 0..outcome.groups().groups.len() {
                 let mu = outcome.depths.mu[g];
-                let bounds = outcome.groups.bounds.iter().filter(|b| b.group == g as u32);
+                let bounds = outcome
+                    .groups()
+                    .bounds
+                    .iter()
+                    .filter(|b| b.group == g as u32);
                 let reach =
                     bounds.map(|b| b.anchor.relative_depth(&outcome.depths.s) / mu / b.upper);
                 assert_near(reach.fold(0.0, f64::max), 1.0, 1e-12);
@@ -266,7 +267,7 @@ fn bounds_at_vertices_hold_exactly() {
         let outcome = Setting::tight().solved(energy);
         let at_vertex = |w: &[f64; 3]| w.contains(&1.0);
         for b in outcome
-            .groups
+            .groups()
             .bounds
             .iter()
             .filter(|b| at_vertex(&b.anchor.weights))
@@ -288,13 +289,13 @@ fn bounds_at_vertices_hold_exactly() {
 fn reliefs_lie_inside_their_layers() {
     let setting = Setting::tight();
     let outcome = setting.solved(NORMAL);
-    let map = &outcome.map;
+    let map = outcome.map();
     let mut corners = 0;
     for (c, cell) in map.cells.iter().enumerate() {
         let (Some(depth), Some(support)) = (outcome.relief.depth[c], cell.support) else {
             continue;
         };
-        let slab = outcome.groups.slabs[support as usize].expect("a layer");
+        let slab = outcome.groups().slabs[support as usize].expect("a layer");
         for (p, z) in cell.corners.iter().zip(depth) {
             let offset = slab.offset(map.plane.point(map.points[*p as usize], z));
             assert!((-2.0 - 1e-9..=1.0 + 1e-9).contains(&offset), "{offset} mm");
@@ -306,7 +307,7 @@ fn reliefs_lie_inside_their_layers() {
 
 #[test]
 fn anchors_give_the_depth_of_their_point() {
-    let (target, map) = Setting::tight().seen();
+    let Image { target, map, .. } = Setting::tight().seen();
     for cell in &map.cells {
         let Some(face) = cell.face else { continue };
         let q = map.points_mean(cell.corners);
@@ -360,7 +361,7 @@ fn a_smaller_hidden_weight_serves_what_is_seen() {
             ..CurvatureOptions::PAPER
         };
         let outcome = Setting::tight().solved(Energy::Curvature(options));
-        let rows = curvature_rows(&outcome.target.mesh, &outcome.depths.s, EYE);
+        let rows = curvature_rows(&outcome.target().mesh, &outcome.depths.s, EYE);
         let seen = outcome.vertices_in_sight();
         let sum = |visible: bool| -> f64 {
             let of = (0..rows.len()).filter(|i| seen[*i] == visible);
@@ -377,7 +378,7 @@ fn a_smaller_hidden_weight_serves_what_is_seen() {
 impl Outcome {
     /// Whether the eye sees at least half, by solid angle, of the faces around a vertex that are turned to it.
     fn vertices_in_sight(&self) -> Vec<bool> {
-        let (mesh, map) = (&self.target.mesh, &self.map);
+        let (mesh, map) = (&self.target().mesh, self.map());
         let mut shares = vec![0.0; mesh.vertices.len()];
         let mut add = |face: usize, share: f64| {
             mesh.faces[face]
@@ -510,9 +511,8 @@ fn a_layer_that_leaves_no_core_is_told_with_pillar_and_view() {
     if let Some(layer) = &mut setting.supports[1].layer {
         layer.core = 4.0;
     }
-    let (target, map) = setting.seen();
-    let field = SupportField::new(&setting.supports);
-    let errors = groups("front", &map, &target, &field).expect_err("the core is too thick");
+    let thin = groups(&setting.seen()).expect_err("the core is too thick");
+    let errors = unseen("front", &setting.supports, &Unseen::Thin(thin));
     assert_eq!(errors.len(), 1);
     let text = &errors[0].message;
     for part in [

@@ -1,7 +1,8 @@
 //! Eyes at infinity: parallel rays, layers, invariance along the view, exact copies where there is room, and what a build tells.
 
 use super::shapes::{
-    MIDDLE, ORANGE, Outcome, ball, boxes, bumpy, obj, pillar, solved as solved_from, view,
+    MIDDLE, ORANGE, Outcome, ball, boxes, bumpy, field, obj, pillar, sighted,
+    solved as solved_from, view,
 };
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
@@ -13,9 +14,8 @@ use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::UNSEEN_RAD;
-use pillarforest::support::{Datum, Layer, Support, SupportKind};
+use pillarforest::support::{Datum, Support, SupportKind};
 use pillarforest::view::View;
-use pillarforest::viewmap::{SupportField, Target, view_map};
 use std::path::Path;
 
 const NORMAL: Energy = Energy::Normal(NormalOptions {
@@ -50,10 +50,7 @@ fn plate() -> Support {
 }
 
 fn solved(view: &View, supports: &[Support], energy: Energy) -> Outcome {
-    let plane = view.plane();
-    let target = Target::new(view.target(), &plane).expect("in front of the eye");
-    let map = view_map(plane, &target, &SupportField::new(supports)).expect("a map");
-    solved_from(target, map, supports, energy)
+    solved_from(sighted(view.clone(), field(supports)), energy)
 }
 
 fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
@@ -66,12 +63,12 @@ fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
 /// How far every bounded vertex of the relief stands before a point, along the view, millimetres; NaN without bounds.
 fn heights(found: &Outcome, point: DVec3) -> Vec<f64> {
     let mut heights = vec![f64::NAN; found.depths.s.len()];
-    for bound in &found.groups.bounds {
+    for bound in &found.groups().bounds {
         let mut terms = bound.anchor.terms();
         if let (Some((v, _)), None) = (terms.next(), terms.next()) {
             let z =
-                found.target.depth[v] * found.depths.s[v] / found.depths.mu[bound.group as usize];
-            heights[v] = found.map.plane.depth(point) - z;
+                found.target().depth[v] * found.depths.s[v] / found.depths.mu[bound.group as usize];
+            heights[v] = found.map().plane.depth(point) - z;
         }
     }
     heights
@@ -135,7 +132,6 @@ fn rays_from_afar_find_what_rays_from_nearby_find() {
 #[test]
 fn an_orthographic_relief_stays_in_its_layer() {
     let supports = [plate()];
-    let field = SupportField::new(&supports);
     let SupportKind::Body {
         face: Some(face), ..
     } = supports[0].kind
@@ -145,18 +141,18 @@ fn an_orthographic_relief_stays_in_its_layer() {
     let gradient = Energy::Gradient(GradientOptions { compression: 1.0 });
     for energy in [NORMAL, CURVATURE, Energy::Linear, gradient] {
         let found = solved(&far_view(FAR_MM), &supports, energy);
-        let violation = bound_violation_mm(&found.map, &field, &found.groups, &found.relief);
+        let violation = bound_violation_mm(&found.sight, &found.relief);
         assert!(violation <= 1e-6, "{energy:?}: {violation}");
         assert!(found.relief.clamp_mm <= 1e-6, "{}", found.relief.clamp_mm);
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
         for (c, depth) in found.relief.depth.iter().enumerate() {
             for (q, z) in found
-                .map
+                .map()
                 .triangle(c)
                 .into_iter()
                 .zip(depth.iter().flatten())
             {
-                let out = (found.map.plane.point(q, *z) - face.point).dot(face.normal);
+                let out = (found.map().plane.point(q, *z) - face.point).dot(face.normal);
                 reach = [reach[0].min(out), reach[1].max(out)];
             }
         }
@@ -222,12 +218,7 @@ fn ten_times_nearer_or_farther_is_the_same() {
 #[test]
 fn where_there_is_room_the_relief_is_the_model() {
     let mut support = plate();
-    support.layer = support.layer.map(|l| Layer {
-        front: 40.0,
-        back: 40.0,
-        core: 0.0,
-        ..l
-    });
+    support.layer = support.layer.map(|l| l.resized(40.0, 40.0, 0.0));
     // The body must hold what is carved into it.
     support.mesh = deep_block();
     for energy in [NORMAL, CURVATURE] {
@@ -235,14 +226,14 @@ fn where_there_is_room_the_relief_is_the_model() {
         let bounded = heights(&found, MIDDLE);
         let scale = found.depths.mu[0];
         let place = |v: u32| {
-            let ray = found.target.mesh.vertices[v as usize] - found.map.plane.eye;
+            let ray = found.target().mesh.vertices[v as usize] - found.map().plane.eye;
             found.depths.s[v as usize] / scale * ray
         };
         let whole = |f: &&[u32; 3]| f.iter().all(|v| !bounded[*v as usize].is_nan());
         let (mut worst, mut count) = (0.0f64, 0);
-        for face in found.target.mesh.faces.iter().filter(whole) {
+        for face in found.target().mesh.faces.iter().filter(whole) {
             let [a, b, c] = face.map(place);
-            let model = face.map(|v| found.target.mesh.vertices[v as usize]);
+            let model = face.map(|v| found.target().mesh.vertices[v as usize]);
             let wanted = (model[1] - model[0]).cross(model[2] - model[0]);
             worst = worst.max((b - a).cross(c - a).angle_between(wanted).to_degrees());
             count += 1;
@@ -252,7 +243,7 @@ fn where_there_is_room_the_relief_is_the_model() {
             count > 300 && worst < 0.05,
             "{energy:?}: {worst} degrees, {count} faces"
         );
-        assert_eq!(found.groups.groups.len(), 1);
+        assert_eq!(found.groups().groups.len(), 1);
     }
 }
 
@@ -368,9 +359,8 @@ fn pillars_may_serve_an_eye_at_infinity_and_one_in_its_place() {
     );
     for view in [&behind, &before] {
         let found = solved(view, &supports, NORMAL);
-        assert_eq!(found.groups.groups.len(), 1, "{}", view.name);
-        let field = SupportField::new(&supports);
-        let violation = bound_violation_mm(&found.map, &field, &found.groups, &found.relief);
+        assert_eq!(found.groups().groups.len(), 1, "{}", view.name);
+        let violation = bound_violation_mm(&found.sight, &found.relief);
         assert!(violation <= 1e-6, "{violation}");
     }
 }

@@ -9,7 +9,6 @@ use pillarforest::planner::{
     Adjustment, Brief, Care, Ended, FaultKind, Freedom, Matters, Pillar, Planned, Region, Shape,
     Subject, Survey, Watch, plan, repair, start,
 };
-use pillarforest::support::{Datum, Layer};
 use pillarforest::view::View;
 use pillarforest::words::planner::no_layout;
 use rand::{RngExt, SeedableRng};
@@ -35,14 +34,7 @@ fn round(radius: f64) -> Shape {
         round: true,
         reach: radius,
         heights: [90.0, 90.0],
-        layer: Layer {
-            datum: Datum::Plane,
-            front: 5.0,
-            back: 2.0,
-            core: 1.0,
-            through: false,
-            hull: false,
-        },
+        layer: shapes::flat_layer(5.0, 2.0, 1.0),
         written: format!("Round(radius: {radius})"),
     }
 }

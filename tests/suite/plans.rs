@@ -1,6 +1,6 @@
 //! Plans as the planner hands them over, made by hand: their layouts are surveyed, their searches are invented.
 
-use crate::shapes;
+use crate::shapes::{self, flat_layer};
 use glam::{DVec2, DVec3};
 use pillarforest::diag::Diagnostic;
 use pillarforest::planner::{
@@ -9,7 +9,7 @@ use pillarforest::planner::{
 };
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::UNSEEN_RAD;
-use pillarforest::support::{Datum, Layer, SupportKind};
+use pillarforest::support::SupportKind;
 use pillarforest::view::View;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -265,14 +265,7 @@ fn shape(profile: Vec<DVec2>, round: bool) -> Shape {
         profile,
         round,
         heights: [90.0, 90.0],
-        layer: Layer {
-            datum: Datum::Plane,
-            front: 2.0,
-            back: 1.0,
-            core: 0.5,
-            through: false,
-            hull: false,
-        },
+        layer: flat_layer(2.0, 1.0, 0.5),
         written: String::new(),
     }
 }

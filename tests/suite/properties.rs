@@ -9,8 +9,8 @@ use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::{NamedMesh, read_bodies};
+use pillarforest::kinds::ReliefKind;
 use pillarforest::mesh::TriMesh;
-use pillarforest::mimic::Energy;
 use pillarforest::scene::{self, Scene};
 use pillarforest::view::View;
 use proptest::prelude::*;
@@ -370,7 +370,7 @@ fn listed(list: &Value, wanted: impl Fn(&Value) -> bool) -> f64 {
 
 /// `ok` must follow from the certificates, and from nothing else.
 fn verdict(scene: &Scene, build: &Build, report: &Value) -> Vec<String> {
-    let ordered = scene.energy.ordering();
+    let ordered = scene.relief.energy().ordering();
     let views = report["views"].as_array().into_iter().flatten();
     let certificates: Vec<&Value> = views.map(|v| &v["certificate"]).collect();
     let holds = |c: &&Value| {
@@ -550,9 +550,9 @@ impl Looked {
         layers: &[Option<(f64, f64)>],
         certificate: &Value,
     ) -> Vec<String> {
-        let ordered = scene.energy.ordering();
+        let ordered = scene.relief.energy().ordering();
         // A torn piece along a contour may be narrower than the rays' distance, and only it has an order with what lies behind.
-        let torn = scene.steps.is_some() && matches!(scene.energy, Energy::Normal(_));
+        let torn = matches!(scene.relief, ReliefKind::Torn(..));
         if torn || !ordered || number(certificate, "order_inversions") > 0.0 {
             return Vec::new();
         }

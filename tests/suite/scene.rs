@@ -1,6 +1,7 @@
 //! The scene language: every case under tests/cases, texts too large or too odd for files, placing, `--set`, the bundled scenes.
 
 use pillarforest::diag::{Diagnostic, Place, Warned};
+use pillarforest::kinds::ReliefKind;
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::{Prefer, StepLimits, StepOptions};
 use pillarforest::support::{Datum, SupportKind};
@@ -329,7 +330,7 @@ fn a_layer_of_an_entry_replaces_the_scenes_field_by_field() {
         );
     let layer = good(&text).supports[0].layer.expect("pillars carry");
     assert_eq!(
-        (layer.datum, layer.front, layer.back),
+        (layer.datum(), layer.front, layer.back()),
         (Datum::Surface, 2.0, 0.7)
     );
 }
@@ -381,12 +382,20 @@ fn set_replaces_and_adds_values() {
     assert!(guess.help.iter().any(|h| h.contains("[side]")), "{guess:?}");
 }
 
+/// How its surfaces may be torn, if they may.
+fn steps_of(scene: &Scene) -> Option<StepOptions> {
+    match scene.relief {
+        ReliefKind::Torn(_, steps) => Some(steps),
+        ReliefKind::HeightField(_) | ReliefKind::Whole(..) => None,
+    }
+}
+
 #[test]
 fn steps_are_allowed_from_two_pillars_on_unless_the_scene_says_otherwise() {
     let set = |assignments: &[&str]| {
         let set =
             |text: String, a: &&str| scene::set(&text, a).unwrap_or_else(|e| panic!("{a}: {e:?}"));
-        good(&assignments.iter().fold(PLAIN.to_string(), set)).steps
+        steps_of(&good(&assignments.iter().fold(PLAIN.to_string(), set)))
     };
     let by_default = set(&[]).expect("64 pillars");
     assert_eq!(by_default.limits.highest_mm, None);
@@ -430,7 +439,7 @@ fn limits_of_steps_follow_the_units() {
         narrowest_mm: 0.6,
         prefer: Prefer::Camouflage,
     };
-    assert_eq!(good(&text).steps, Some(wanted));
+    assert_eq!(steps_of(&good(&text)), Some(wanted));
 }
 
 #[test]
@@ -503,7 +512,7 @@ fn the_reference_forest_is_what_it_should_be() {
     assert_eq!(scene.supports.len(), 28);
     let layer = scene.supports[0].layer.expect("pillars carry");
     assert_eq!(
-        (layer.datum, layer.front, layer.back),
+        (layer.datum(), layer.front, layer.back()),
         (Datum::Plane, 5.0, 2.0)
     );
     let SupportKind::Pillar {

@@ -6,21 +6,13 @@ use pillarforest::compile::{Build, build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::diagram::section::{Section, groups_sheet, section};
 use pillarforest::geom::{barycentric, polygon_area};
-use pillarforest::groups::layer_at;
 use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use pillarforest::scene;
-use pillarforest::viewmap::SupportField;
 
 fn cut(setting: &Setting, energy: Energy) -> (Outcome, Section) {
     let out = setting.solved(energy);
-    let field = SupportField::new(&setting.supports);
-    let found = section(
-        (&out.map, &out.target, &field),
-        &out.groups,
-        &out.depths,
-        &out.relief,
-        (&out.target.mesh, false),
-    );
+    let model = &out.target().mesh;
+    let found = section(&out.sight, &out.depths, &out.relief, (model, false));
     (out, found)
 }
 
@@ -65,7 +57,6 @@ fn the_surface_lies_within_the_scaled_bounds_and_scaled_back_it_is_the_relief() 
 #[test]
 fn every_value_is_that_of_its_ray() {
     let setting = Setting::tight();
-    let field = SupportField::new(&setting.supports);
     let (out, section) = cut(&setting, energies()[0]);
     let mut end = f64::NEG_INFINITY;
     for s in section.stretches.iter().filter(|s| s.x[1] - s.x[0] > 1e-6) {
@@ -74,29 +65,33 @@ fn every_value_is_that_of_its_ray() {
         end = s.x[1];
         let q = section.cut.ray((s.x[0] + s.x[1]) / 2.0);
         let middle = |v: [f64; 2]| 2.0 / (1.0 / v[0] + 1.0 / v[1]);
-        let direction = out.map.plane.direction(q);
-        let hit = out.target.bvh.first_hit(EYE, direction).expect("the model");
+        let direction = out.map().plane.direction(q);
+        let hit = out
+            .target()
+            .bvh
+            .first_hit(EYE, direction)
+            .expect("the model");
         // On faces seen edgewise a ray's rounding moves its hit far.
         let slack = 1e-6 + 1e-3 * (s.model[1] - s.model[0]).abs();
         assert!((middle(s.model) - hit.t).abs() < slack, "{s:?} {hit:?}");
         let Some(l) = s.laid else { continue };
-        let cell = (0..out.map.cells.len())
+        let cell = (0..out.map().cells.len())
             .find(|c| {
-                let [a, b, c] = out.map.triangle(*c);
+                let [a, b, c] = out.map().triangle(*c);
                 barycentric(a, b, c, q).min_element() >= 0.0
             })
             .expect("a cell");
         let group = section.groups[l.group].group;
-        assert_eq!(out.groups.of_cell[cell], Some(group));
-        let support = out.groups.groups[group as usize].support;
+        assert_eq!(out.groups().of_cell[cell], Some(group));
+        let support = out.groups().groups[group as usize].support;
         assert_eq!(
             section.groups[l.group].support,
             setting.supports[support as usize].name
         );
-        let slab = out.groups.slabs[support as usize].expect("a layer");
-        let (near, far) = layer_at(&out.map, &field, &slab, support, q);
+        let slab = out.groups().slabs[support as usize].expect("a layer");
+        let (near, far) = out.sight.image.layer_at(&slab, support, q);
         assert!((middle(l.near) - near).abs() < 1e-6 && (middle(l.far) - far).abs() < 1e-6);
-        let [a, b, c] = out.map.triangle(cell);
+        let [a, b, c] = out.map().triangle(cell);
         let beta = barycentric(a, b, c, q).to_array();
         let depth = out.relief.depth[cell].expect("a relief");
         let inverse: f64 = (0..3).map(|k| beta[k] / depth[k]).sum();

@@ -4,15 +4,16 @@ use glam::{DMat4, DVec2, DVec3};
 use manifold_rust::linalg::Vec3;
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{Error, MeshGL64};
-use pillarforest::geom::ImagePlane;
-use pillarforest::groups::{Groups, groups};
+use pillarforest::groups::Groups;
+use pillarforest::kinds;
 use pillarforest::mesh::TriMesh;
-use pillarforest::mimic::{Depths, Energy, depths};
+use pillarforest::mimic::{Depths, Energy};
 use pillarforest::relief::{Relief, relief};
 use pillarforest::scene::Scene;
-use pillarforest::support::{Datum, Layer, Support, SupportKind};
+use pillarforest::sight::Sight;
+use pillarforest::support::{Datum, Extent, Layer, Support, SupportKind};
 use pillarforest::view::{PlacedModel, View};
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
+use pillarforest::viewmap::{Image, SupportField, Target, ViewMap};
 use std::f64::consts::TAU;
 
 pub const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
@@ -88,6 +89,24 @@ pub fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
     mesh
 }
 
+/// As far behind a datum as a layer with it reaches.
+pub fn extent(datum: Datum, back: f64) -> Extent {
+    match datum {
+        Datum::Plane => Extent::Plane { back },
+        Datum::Surface => Extent::Surface { back },
+    }
+}
+
+/// A layer about a plane.
+pub fn flat_layer(front: f64, back: f64, core: f64) -> Layer {
+    Layer {
+        extent: Extent::Plane { back },
+        front,
+        core,
+        hull: false,
+    }
+}
+
 pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support {
     let profile = ring(axis, radius, corners);
     Support {
@@ -101,12 +120,8 @@ pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support
             round: corners > 12,
         },
         layer: Some(Layer {
-            datum,
-            front: 2.0,
-            back: 1.0,
-            core: 0.5,
-            through: false,
-            hull: false,
+            extent: extent(datum, 1.0),
+            ..flat_layer(2.0, 1.0, 0.5)
         }),
     }
 }
@@ -216,25 +231,25 @@ impl Setting {
 
     /// The same ball inside one huge pillar whose layer takes all of it at any scale from a third to four thirds.
     pub fn roomy() -> Self {
-        let layer = Layer {
-            datum: Datum::Plane,
-            front: 110.0,
-            back: 55.0,
-            core: 1.0,
-            through: false,
-            hull: false,
-        };
         let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::Plane);
-        support.layer = Some(layer);
+        support.layer = Some(flat_layer(110.0, 55.0, 1.0));
         Self::new(bumpy(12.0), vec![support])
     }
 
+    pub fn view(&self) -> View {
+        View {
+            look_at: self.look_at,
+            ..view("test", self.eye, self.model.clone(), ORANGE)
+        }
+    }
+
     /// The view map with its target.
-    pub fn seen(&self) -> (Target, ViewMap) {
-        let plane = ImagePlane::looking_at(self.eye, self.look_at);
-        let target = Target::new(self.model.clone(), &plane).expect("in front of the eye");
-        let map = view_map(plane, &target, &SupportField::new(&self.supports)).expect("a map");
-        (target, map)
+    pub fn seen(&self) -> Image<'static> {
+        Image::new(kept(self.view()), field(&self.supports)).expect("a map")
+    }
+
+    pub fn sight(&self) -> Sight<'static> {
+        sighted(self.view(), field(&self.supports))
     }
 
     /// The first view of a scene.
@@ -250,23 +265,33 @@ impl Setting {
 
     /// All stages up to the relief.
     pub fn solved(&self, energy: Energy) -> Outcome {
-        let (target, map) = self.seen();
-        solved(target, map, &self.supports, energy)
+        solved(self.sight(), energy)
     }
 }
 
-/// What the stages from the view map to the relief make of it.
-pub fn solved(target: Target, map: ViewMap, supports: &[Support], energy: Energy) -> Outcome {
-    let field = SupportField::new(supports);
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    let depths = depths(energy, &target, &map, &groups).expect("depths");
-    let relief = relief(&map, &target, &field, &groups, &depths);
+/// A value for the rest of the run, so that sights can be handed about: tests are few and end soon.
+fn kept<T>(value: T) -> &'static T {
+    Box::leak(Box::new(value))
+}
+
+/// Supports as a target for rays, for the rest of the run.
+pub fn field(supports: &[Support]) -> &'static SupportField<'static> {
+    kept(SupportField::new(kept(supports.to_vec())))
+}
+
+/// What an eye sees on supports.
+pub fn sighted(view: View, field: &'static SupportField<'static>) -> Sight<'static> {
+    let sight = Sight::new(kept(view), field);
+    sight.unwrap_or_else(|e| panic!("nothing to see: {e:?}"))
+}
+
+/// What the stages from a sight to the relief make of it, the surface in one piece.
+pub fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
+    let depths = kinds::depths(energy, &sight).expect("depths");
     Outcome {
-        target,
-        map,
-        groups,
+        relief: relief(&sight, &depths),
+        sight,
         depths,
-        relief,
     }
 }
 
@@ -281,11 +306,23 @@ pub fn obj(mesh: &TriMesh) -> Vec<u8> {
 
 /// All that the stages up to the relief make of a setting.
 pub struct Outcome {
-    pub target: Target,
-    pub map: ViewMap,
-    pub groups: Groups,
+    pub sight: Sight<'static>,
     pub depths: Depths,
     pub relief: Relief,
+}
+
+impl Outcome {
+    pub fn target(&self) -> &Target {
+        &self.sight.image.target
+    }
+
+    pub fn map(&self) -> &ViewMap {
+        &self.sight.image.map
+    }
+
+    pub fn groups(&self) -> &Groups {
+        &self.sight.groups
+    }
 }
 
 /// A closed ball with waves on it, finer than the pillars and coarser than its faces.

@@ -2,12 +2,12 @@
 
 use crate::shapes::{MIDDLE, Setting, ball, wavy};
 use glam::{DVec2, DVec3};
-use pillarforest::groups::{Groups, anchor, groups, layer_at};
+use pillarforest::groups::anchor;
 use pillarforest::mesh::TriMesh;
-use pillarforest::mimic::{Energy, FaceWeight, NormalOptions, depths};
+use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
 use pillarforest::relief::{Relief, relief};
 use pillarforest::steps::{Prefer, StepLimits, StepOptions, Torn, torn};
-use pillarforest::viewmap::{SupportField, Target, ViewMap};
+use pillarforest::viewmap::{Image, ViewMap};
 
 const NORMAL: NormalOptions = NormalOptions {
     weight: FaceWeight::Area,
@@ -51,23 +51,15 @@ fn limited(highest_mm: Option<f64>, tolerance_mm: Option<f64>) -> StepOptions {
     StepOptions { limits, ..STEPS }
 }
 
-fn found(setting: &Setting) -> (Target, ViewMap, Groups) {
-    let (target, map) = setting.seen();
-    let field = SupportField::new(&setting.supports);
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    (target, map, groups)
-}
-
-fn torn_with(setting: &Setting, steps: &StepOptions) -> (Torn, Relief) {
-    let (target, map, groups) = found(setting);
-    let field = SupportField::new(&setting.supports);
-    let torn = torn(steps, NORMAL, &target, &map, &field, &groups).expect("a torn surface");
-    let relief = relief(&torn.map, &torn.target, &field, &torn.groups, &torn.depths);
+fn torn_with(setting: &Setting, steps: &StepOptions) -> (Torn<'static>, Relief) {
+    let torn = torn(steps, NORMAL, &setting.sight()).expect("a torn surface");
+    let relief = relief(&torn.sight, &torn.depths);
     (torn, relief)
 }
 
 /// Mean angle between the model and a relief, degrees, by solid angle.
-fn error_deg(target: &Target, map: &ViewMap, relief: &Relief) -> f64 {
+fn error_deg(image: &Image, relief: &Relief) -> f64 {
+    let Image { target, map, .. } = image;
     let (mut sum, mut weight) = (0.0, 0.0);
     for (c, depth) in relief.depth.iter().enumerate() {
         let (Some(depth), Some(face)) = (depth, map.cells[c].face) else {
@@ -90,15 +82,12 @@ fn error_deg(target: &Target, map: &ViewMap, relief: &Relief) -> f64 {
 
 fn torn_error(setting: &Setting, steps: &StepOptions) -> f64 {
     let (torn, relief) = torn_with(setting, steps);
-    error_deg(&torn.target, &torn.map, &relief)
+    error_deg(&torn.sight.image, &relief)
 }
 
 fn whole_error(setting: &Setting) -> f64 {
-    let (target, map, groups) = found(setting);
-    let field = SupportField::new(&setting.supports);
-    let depths = depths(Energy::Normal(NORMAL), &target, &map, &groups).expect("depths");
-    let relief = relief(&map, &target, &field, &groups, &depths);
-    error_deg(&target, &map, &relief)
+    let whole = setting.solved(Energy::Normal(NORMAL));
+    error_deg(&whole.sight.image, &whole.relief)
 }
 
 /// Sides between two cells with reliefs on one support: both cells, and for both ends which corners of theirs lie there.
@@ -140,15 +129,15 @@ fn torn_surfaces_keep_the_normals() {
 fn every_corner_stays_in_its_layer() {
     for setting in settings() {
         let (torn, relief) = torn_with(&setting, &STEPS);
-        let field = SupportField::new(&setting.supports);
+        let map = &torn.sight.image.map;
         assert!(relief.clamp_mm < 1e-6, "clamped by {} mm", relief.clamp_mm);
         for (c, depth) in relief.depth.iter().enumerate() {
-            let (Some(depth), Some(support)) = (depth, torn.map.cells[c].support) else {
+            let (Some(depth), Some(support)) = (depth, map.cells[c].support) else {
                 continue;
             };
-            let slab = torn.groups.slabs[support as usize].expect("a layer");
-            for (q, z) in torn.map.triangle(c).into_iter().zip(depth) {
-                let (near, far) = layer_at(&torn.map, &field, &slab, support, q);
+            let slab = torn.sight.groups.slabs[support as usize].expect("a layer");
+            for (q, z) in map.triangle(c).into_iter().zip(depth) {
+                let (near, far) = torn.sight.image.layer_at(&slab, support, q);
                 assert!(
                     (near - 1e-9..=far + 1e-9).contains(z),
                     "{z} not in {near} to {far}"
@@ -161,19 +150,16 @@ fn every_corner_stays_in_its_layer() {
 #[test]
 fn sheets_keep_their_order_along_contours() {
     let (torn, relief) = torn_with(&contoured(), &STEPS);
+    let Image { map, target, .. } = &torn.sight.image;
     let model = |c: usize, k: usize| {
-        let cell = &torn.map.cells[c];
-        let q = torn.map.points[cell.corners[k] as usize];
-        anchor(
-            &torn.target,
-            cell.face.expect("a relief shows a face") as usize,
-            q,
-        )
-        .1
+        let cell = &map.cells[c];
+        let q = map.points[cell.corners[k] as usize];
+        let face = cell.face.expect("a relief shows a face");
+        anchor(target, face as usize, q).1
     };
     let depth = |c: usize, k: usize| relief.depth[c].expect("a relief")[k];
     let (mut met, mut worst) = (0, f64::MIN);
-    for ([c, n], ends) in sides(&torn.map, &relief) {
+    for ([c, n], ends) in sides(map, &relief) {
         for [k, l] in ends {
             let gap = model(n, l) - model(c, k);
             if gap.abs() > CONTOUR_MM {
@@ -191,18 +177,19 @@ fn sheets_keep_their_order_along_contours() {
 
 /// Steps at vertices of the cut mesh: depths of both copies for corners of two patches that meet along a side.
 fn steps_at_vertices(torn: &Torn, relief: &Relief) -> Vec<f64> {
-    let mesh = &torn.target.mesh;
+    let Image { map, target, .. } = &torn.sight.image;
+    let mesh = &target.mesh;
     let mut steps = Vec::new();
-    for ([c, n], _) in sides(&torn.map, relief) {
-        let faces = [c, n].map(|c| torn.map.cells[c].face.expect("a relief shows a face"));
-        let group = |c: usize| torn.groups.of_cell[c];
+    for ([c, n], _) in sides(map, relief) {
+        let faces = [c, n].map(|c| map.cells[c].face.expect("a relief shows a face"));
+        let group = |c: usize| torn.sight.groups.of_cell[c];
         if faces[0] == faces[1] || group(c) != group(n) {
             continue;
         }
         for v in mesh.faces[faces[0] as usize].map(|v| v as usize) {
             for w in mesh.faces[faces[1] as usize].map(|w| w as usize) {
                 if v != w && mesh.vertices[v] == mesh.vertices[w] {
-                    steps.push(torn.target.depth[v] * (torn.depths.s[v] - torn.depths.s[w]).abs());
+                    steps.push(target.depth[v] * (torn.depths.s[v] - torn.depths.s[w]).abs());
                 }
             }
         }
@@ -237,7 +224,7 @@ fn no_step_is_higher_than_the_highest() {
         let mut costs = Vec::new();
         for highest in [0.3, 0.8, 2.0] {
             let (torn, relief) = torn_with(&setting, &limited(Some(highest), None));
-            let error = error_deg(&torn.target, &torn.map, &relief);
+            let error = error_deg(&torn.sight.image, &relief);
             // Limits are depths, heights of lines distances on rays.
             for line in &torn.lines {
                 for (height, ray) in line.height_mm.iter().zip(&line.ends) {
@@ -308,7 +295,7 @@ fn runs_and_numbers_of_threads_give_the_same_bits() {
     let bits = || {
         let (torn, _) = torn_with(&setting, &STEPS);
         let bits: Vec<u64> = torn.depths.s.iter().map(|s| s.to_bits()).collect();
-        (bits, torn.target.mesh.faces, torn.lines)
+        (bits, torn.sight.image.target.mesh.faces, torn.lines)
     };
     let first = bits();
     assert!(first == bits(), "two runs differ");
@@ -355,7 +342,7 @@ fn the_order_of_the_models_faces_hardly_matters() {
             let (torn, relief) = torn_with(setting, &STEPS);
             (
                 torn.summary.pieces as f64,
-                error_deg(&torn.target, &torn.map, &relief),
+                error_deg(&torn.sight.image, &relief),
             )
         };
         let (pieces, error) = figures(&setting);
@@ -378,7 +365,7 @@ fn the_order_of_the_models_faces_hardly_matters() {
 #[test]
 fn what_fits_is_not_torn() {
     let (torn, relief) = torn_with(&Setting::roomy(), &STEPS);
-    let error = error_deg(&torn.target, &torn.map, &relief);
+    let error = error_deg(&torn.sight.image, &relief);
     assert!(torn.lines.is_empty(), "{} lines", torn.lines.len());
     assert_eq!((torn.summary.lines, torn.summary.highest_mm), (0, 0.0));
     assert!(error < 0.05, "{error} degrees");
@@ -400,9 +387,6 @@ fn a_face_steeper_than_the_layer_is_no_error() {
         faces: vec![[0, 1, 2], [0, 2, 3]],
     };
     let (torn, relief) = torn_with(&setting, &STEPS);
-    let (error, whole) = (
-        error_deg(&torn.target, &torn.map, &relief),
-        whole_error(&setting),
-    );
+    let (error, whole) = (error_deg(&torn.sight.image, &relief), whole_error(&setting));
     assert!(error <= whole + 0.1, "{error} degrees torn, {whole} whole");
 }

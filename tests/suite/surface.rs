@@ -1,20 +1,18 @@
 //! The optimised surface as a file for other programs, and what regions of a model do to it.
 
-use crate::shapes::{Setting, ball};
+use crate::shapes::{self, Outcome, Setting, ball, field, sighted};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::build;
 use pillarforest::diag::Diagnostic;
-use pillarforest::geom::ImagePlane;
-use pillarforest::groups::groups;
 use pillarforest::intake::{Admitted, load_original};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::{Original, TriMesh};
-use pillarforest::mimic::{CurvatureOptions, Depths, Energy, FaceWeight, NormalOptions, depths};
-use pillarforest::relief::relief;
+use pillarforest::mimic::{CurvatureOptions, Depths, Energy, FaceWeight, NormalOptions};
 use pillarforest::scene;
 use pillarforest::surface::UNBOUNDED;
 use pillarforest::view::Marks;
-use pillarforest::viewmap::{SupportField, Target, view_map};
+use pillarforest::viewmap::{Image, Target};
+use std::sync::Arc;
 
 /// A ball in its file's own place and order: colours, a texture point of its own for every face corner, a stray vertex first,
 /// and one vertex twice.
@@ -290,16 +288,17 @@ const ENERGIES: [Energy; 2] = [
 /// faces of the right half that the eye sees are turned.
 fn solved(energy: Energy, marks: impl Fn(&TriMesh) -> Marks) -> (Target, Depths, f64) {
     let setting = Setting::tight();
-    let plane = ImagePlane::looking_at(setting.eye, setting.look_at);
-    let target = Target::new(setting.model.clone(), &plane).expect("in front of the eye");
-    let field = SupportField::new(&setting.supports);
-    let map = view_map(plane, &target, &field).expect("a map");
-    let target = target.marked(marks(&setting.model));
-    let groups = groups("test", &map, &target, &field).expect("groups");
-    let depths = depths(energy, &target, &map, &groups).expect("depths");
-    let free = relief(&map, &target, &field, &groups, &depths).free;
+    let mut view = setting.view();
+    view.models[0].marks = Arc::new(marks(&setting.model));
+    let sight = sighted(view, field(&setting.supports));
+    let Outcome {
+        sight,
+        depths,
+        relief,
+    } = shapes::solved(sight, energy);
+    let Image { target, map, .. } = sight.image;
     assert_eq!(
-        free.iter().flatten().any(|f| *f),
+        relief.free.iter().flatten().any(|f| *f),
         target.free.contains(&true)
     );
     let moved = TriMesh {

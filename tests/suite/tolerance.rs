@@ -1,20 +1,20 @@
 //! Tolerance of eyes: closed forms against constructions of their own, and against rays at finished solids.
 
-use crate::shapes::{EYE, MIDDLE, ORANGE, Setting, ball, pillar, prism, view, wavy};
+use crate::shapes::{
+    EYE, MIDDLE, ORANGE, Outcome, Setting, ball, flat_layer, pillar, prism, view, wavy,
+};
 use crate::steps::STEPS;
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::carve::{ViewRelief, carve};
+use pillarforest::carve::{Operand, carve};
 use pillarforest::certify::tolerance::{
     EYES_MM, ONE_PICTURE_RAD, Tolerance, Way, confirm, opened, tolerance,
 };
-use pillarforest::geom::ImagePlane;
-use pillarforest::groups::{Groups, groups};
-use pillarforest::mimic::{Energy, FaceWeight, NormalOptions, depths};
-use pillarforest::relief::{Relief, relief};
+use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
+use pillarforest::relief::relief;
 use pillarforest::steps::{UNSEEN_RAD, torn};
-use pillarforest::support::{Datum, Layer, Support, SupportKind};
-use pillarforest::viewmap::{SupportField, Target, ViewMap, view_map};
+use pillarforest::support::{Datum, Support, SupportKind};
+use pillarforest::viewmap::Image;
 
 const NORMAL: NormalOptions = NormalOptions {
     weight: FaceWeight::Area,
@@ -35,60 +35,26 @@ fn block(name: &str, lo: DVec2, hi: DVec2) -> Support {
             top: 40.0,
             round: false,
         },
-        layer: Some(Layer {
-            datum: Datum::Plane,
-            front: 2.0,
-            back: 1.0,
-            core: 0.5,
-            through: false,
-            hull: false,
-        }),
+        layer: Some(flat_layer(2.0, 1.0, 0.5)),
     }
 }
 
-/// A view that has come as far as its relief.
-struct Seen {
-    setting: Setting,
-    target: Target,
-    map: ViewMap,
-    groups: Groups,
-    relief: Relief,
+impl Setting {
+    fn in_one_piece(&self) -> Outcome {
+        self.solved(Energy::Normal(NORMAL))
+    }
 }
 
-impl Seen {
-    fn new(setting: Setting) -> Self {
-        let plane = ImagePlane::looking_at(setting.eye, setting.look_at);
-        let target = Target::new(setting.model.clone(), &plane).expect("before the eye");
-        let field = SupportField::new(&setting.supports);
-        let map = view_map(plane, &target, &field).expect("a map");
-        let groups = groups("test", &map, &target, &field).expect("groups");
-        let energy = Energy::Normal(NORMAL);
-        let depths = depths(energy, &target, &map, &groups).expect("depths");
-        let relief = relief(&map, &target, &field, &groups, &depths);
-        Self {
-            target,
-            map,
-            groups,
-            relief,
-            setting,
-        }
-    }
-
+impl Outcome {
     fn tolerance(&self) -> Tolerance {
-        let mut view = view(
-            "plate",
-            self.setting.eye,
-            self.setting.model.clone(),
-            ORANGE,
-        );
-        view.look_at = self.setting.look_at;
-        let supports = &self.setting.supports;
-        tolerance(&view, &self.map, &self.target, &self.relief, supports)
+        let Image { view, field, .. } = self.sight.image;
+        let (map, target) = (self.map(), self.target());
+        tolerance(view, map, target, &self.relief, field.supports)
     }
 
     /// Depths of a flat relief on one support.
     fn depth_on(&self, support: u32) -> f64 {
-        let cells = self.map.cells.iter().zip(&self.relief.depth);
+        let cells = self.map().cells.iter().zip(&self.relief.depth);
         let depths = cells.filter(|(c, _)| c.support == Some(support));
         let depths: Vec<f64> = depths.filter_map(|(_, d)| *d).flatten().collect();
         assert!(depths.iter().all(|d| (d - depths[0]).abs() < 1e-3));
@@ -98,7 +64,7 @@ impl Seen {
 
 /// A flat plate seen on two blocks, the left one nearer. From the eye the cut between them is upright, `aside` millimetres to the
 /// right of the middle where the left block begins, 138 mm away.
-fn two_blocks(aside: f64) -> Seen {
+fn two_blocks(aside: f64) -> Outcome {
     let model = prism(
         &[
             DVec2::new(-9.0, 0.0),
@@ -111,7 +77,7 @@ fn two_blocks(aside: f64) -> Seen {
     );
     let left = block("left", DVec2::new(-12.0, -12.0), DVec2::new(aside, -4.0));
     let right = block("right", DVec2::new(-2.0, 6.0), DVec2::new(16.0, 14.0));
-    Seen::new(Setting::new(model, vec![left, right]))
+    Setting::new(model, vec![left, right]).in_one_piece()
 }
 
 /// The horizontal angle between two points on one level ray, whose direction leans from the y axis by `lean`, at distances
@@ -176,17 +142,15 @@ fn movements_and_distance_are_those_of_two_points_on_a_ray() {
 #[test]
 fn rays_at_the_solid_measure_what_the_closed_form_says() {
     let seen = two_blocks(4.0);
-    let view = ViewRelief {
-        name: "plate",
-        map: &seen.map,
-        groups: &seen.groups,
+    let operand = Operand::Relief {
+        sight: &seen.sight,
         relief: &seen.relief,
     };
-    let forest = carve(&SupportField::new(&seen.setting.supports), &[view]).expect("a forest");
+    let forest = carve(seen.sight.image.field, &[operand]).expect("a forest");
     let mesh = forest.whole.mesh();
     let bvh = Bvh::new(mesh);
     let mut found = seen.tolerance();
-    confirm(&mut found, &seen.map.plane, mesh, &bvh);
+    confirm(&mut found, &seen.map().plane, mesh, &bvh);
     assert_eq!(found.worst_cuts.len(), 4);
     for worst in &found.worst_cuts {
         for both in [worst.gap.unwrap(), worst.overlap.unwrap()] {
@@ -201,7 +165,7 @@ fn rays_at_the_solid_measure_what_the_closed_form_says() {
         }
     }
     let worst = &found.worst_cuts[0];
-    let e = worst.moved_mm * worst.movement.axis(&seen.map.plane);
+    let e = worst.moved_mm * worst.movement.axis(&seen.map().plane);
     for share in [1.0, 0.5] {
         let [one, other] = [share, -share].map(|s| opened(&worst.cut, EYE, s * e, mesh, &bvh));
         near(one.gap.max(other.gap), share * UNSEEN_RAD, 0.04);
@@ -218,7 +182,7 @@ fn a_model_in_full_depth_opens_nowhere() {
     let mut setting = Setting::roomy();
     // Its waves hide parts of each other.
     setting.model = wavy(12.0, 0.25);
-    let found = Seen::new(setting).tolerance();
+    let found = setting.in_one_piece().tolerance();
     let far = |x: Option<f64>| x.is_none_or(|x| x > 20.0);
     let one = found.one_picture_mm;
     assert!(far(one.side) && far(one.up) && far(one.fore), "{found:?}");
@@ -230,7 +194,7 @@ fn a_support_alone_without_tears_has_no_cut() {
         ball(MIDDLE, 3.0, 12),
         vec![pillar(DVec2::ZERO, 5.0, 48, Datum::Plane)],
     );
-    let found = Seen::new(setting).tolerance();
+    let found = setting.in_one_piece().tolerance();
     assert_eq!(found.eye_tolerance_mm, Default::default());
     assert_eq!(found.stereo_distance_mm, None);
     assert!(found.worst_cuts.is_empty());
@@ -242,13 +206,12 @@ fn tears_open_as_late_as_steps_say() {
     let mut wide = pillar(DVec2::ZERO, 15.0, 64, Datum::Plane);
     wide.layer = setting.supports[0].layer;
     setting.supports = vec![wide];
-    let (target, map) = setting.seen();
-    let field = SupportField::new(&setting.supports);
-    let found = groups("test", &map, &target, &field).expect("groups");
-    let torn = torn(&STEPS, NORMAL, &target, &map, &field, &found).expect("a torn surface");
-    let relief = relief(&torn.map, &torn.target, &field, &torn.groups, &torn.depths);
+    let sight = setting.sight();
+    let torn = torn(&STEPS, NORMAL, &sight).expect("a torn surface");
+    let relief = relief(&torn.sight, &torn.depths);
+    let Image { map, target, .. } = &sight.image;
     let view = view("ball", EYE, setting.model.clone(), ORANGE);
-    let found = tolerance(&view, &map, &target, &relief, &setting.supports);
+    let found = tolerance(&view, map, target, &relief, &setting.supports);
     let of_steps = torn.summary.tolerance_mm.expect("tears");
     let movement = found.eye_tolerance_mm;
     let [side, up, fore] = [movement.side, movement.up, movement.fore].map(Option::unwrap);

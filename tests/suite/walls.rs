@@ -74,8 +74,8 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
         "Never",
     );
     let field = SupportField::new(&scene.supports);
-    let setting = Setting::of(&scene);
-    let Outcome { map, relief, .. } = setting.solved(scene.energy);
+    let Outcome { sight, relief, .. } = Setting::of(&scene).solved(scene.relief.energy());
+    let map = &sight.image.map;
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
     let (mut rays, mut merged, mut deepest) = (0, 0, 0.0f64);
     for (c, cell) in map.cells.iter().enumerate() {
@@ -148,9 +148,9 @@ fn a_vase_is_carved_and_printable() {
 #[test]
 fn too_thin_walls_carry_reliefs_on_their_surface() {
     let scene = scene("hits: (1, 2), front: 2, core: 60", "Never");
-    let setting = Setting::of(&scene);
     let field = SupportField::new(&scene.supports);
-    let Outcome { map, relief, .. } = setting.solved(scene.energy);
+    let Outcome { sight, relief, .. } = Setting::of(&scene).solved(scene.relief.energy());
+    let map = &sight.image.map;
     let mut deepest = f64::NEG_INFINITY;
     for (c, depth) in relief.depth.iter().enumerate() {
         let Some(depth) = depth else { continue };
