@@ -10,7 +10,7 @@
 
 use crate::groups::Groups;
 use crate::index::GroupId;
-use crate::mesh::{Attributes, NO_UV, Original, VertexScalar, TriMesh, Uvs};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar};
 use crate::mimic::Depths;
 use crate::sight::Sight;
 use crate::steps::Torn;

@@ -90,7 +90,13 @@ fn frustum(
 
 /// The part of the image that is carved: narrower than the relief where its support goes on beside it, wider where it ends or is
 /// hidden. A shell is carved to different depths; what of it is hidden stays.
-fn shape(map: &ViewMap, slab: &Slab, support: SupportId, cells: &[CellId], [bed, scale]: [f64; 2]) -> Rings {
+fn shape(
+    map: &ViewMap,
+    slab: &Slab,
+    support: SupportId,
+    cells: &[CellId],
+    [bed, scale]: [f64; 2],
+) -> Rings {
     let goes_on = |c: &CellId| match map.cells[*c].support {
         Some(found) => found == support || slab.is_shell(),
         None => false,

@@ -36,8 +36,7 @@ impl<'a> Piece<'a> {
     /// `None` if the view has no relief there.
     pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: SupportId) -> Option<Self> {
         let cells = &sight.image.map.cells;
-        let on =
-            |c: &CellId| cells[*c].support == Some(support) && relief.depth[*c].is_some();
+        let on = |c: &CellId| cells[*c].support == Some(support) && relief.depth[*c].is_some();
         let cells: Vec<CellId> = CellId::all(cells.len()).filter(on).collect();
         let slab = sight.groups.slabs[support].filter(|_| !cells.is_empty())?;
         Some(Self {

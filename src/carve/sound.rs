@@ -36,8 +36,18 @@ pub fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
                 return Ok(Sound {
                     solid,
                     ladders: [
-                        Ladder::new("tolerance of simplifying", Some(place), held, TOLERANCES_MM.len()),
-                        Ladder::new("height of slivers dissolved", Some(place), rung, Mended::RUNGS),
+                        Ladder::new(
+                            "tolerance of simplifying",
+                            Some(place),
+                            held,
+                            TOLERANCES_MM.len(),
+                        ),
+                        Ladder::new(
+                            "height of slivers dissolved",
+                            Some(place),
+                            rung,
+                            Mended::RUNGS,
+                        ),
                     ],
                 });
             }

@@ -98,9 +98,12 @@ pub fn carve_support(
             Ok(mut carved) => {
                 if has_widths {
                     let place = Some(field.supports[s].name.as_str());
-                    carved
-                        .ladders
-                        .push(Ladder::new("widths of carving", place, widths, WIDTHS.len()));
+                    carved.ladders.push(Ladder::new(
+                        "widths of carving",
+                        place,
+                        widths,
+                        WIDTHS.len(),
+                    ));
                 }
                 return Ok(carved);
             }

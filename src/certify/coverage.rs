@@ -106,11 +106,7 @@ pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId]) -> Coverage 
         })
         .collect();
     let models = sight.models().map(|(name, faces)| {
-        let of_model = |c: &CellId| {
-            map.cells[*c]
-                .face
-                .is_some_and(|f| faces.contains(&f.at()))
-        };
+        let of_model = |c: &CellId| map.cells[*c].face.is_some_and(|f| faces.contains(&f.at()));
         let cells: Vec<CellId> = all().filter(of_model).collect();
         let sum = |keep: &dyn Fn(CellId) -> bool| {
             let kept = cells.iter().filter(|c| keep(**c));
@@ -230,7 +226,10 @@ fn missing_mm(sight: &Sight, support: &Support, q: DVec2, until: f64) -> Option<
     let SupportKind::Pillar { profile, top, .. } = &support.kind else {
         return None;
     };
-    let (eye, direction) = (sight.image.map.plane.eye, sight.image.map.plane.direction(q));
+    let (eye, direction) = (
+        sight.image.map.plane.eye,
+        sight.image.map.plane.direction(q),
+    );
     let (enter, leave) = chord(profile, eye, direction)?;
     let leave = leave.min(until);
     let lowest = eye.z + direction.z * if direction.z < 0.0 { leave } else { enter };

@@ -65,12 +65,7 @@ pub fn claims(sights: &[Sight]) -> Vec<Claim> {
         .collect()
 }
 
-fn claim(
-    sight: &Sight,
-    view: ViewId,
-    support: SupportId,
-    cells: Vec<CellId>,
-) -> Option<Claim> {
+fn claim(sight: &Sight, view: ViewId, support: SupportId, cells: Vec<CellId>) -> Option<Claim> {
     let slab = sight.groups.slabs[support]?;
     let map = &sight.image.map;
     let plane = map.plane;
@@ -129,9 +124,7 @@ fn surface_reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -
         found.0 = found.0.min(slab.offset(map.plane.point(q, near)));
         found.1 = found.1.max(slab.offset(map.plane.point(q, far)));
     }
-    let front = field.supports[support]
-        .layer
-        .map_or(0.0, |l| l.front);
+    let front = field.supports[support].layer.map_or(0.0, |l| l.front);
     let sides = corners.map(|q| map.plane.direction(q).truncate());
     let middle = sides[0] + sides[1] + sides[2];
     let angles = sides.map(|d| middle.angle_to(d));
@@ -257,8 +250,7 @@ fn shadow(seen: &Claim, body: &Frustum) -> Option<Box3> {
 impl Claim {
     fn rays(&self, sights: &[Sight], i: usize) -> [DVec3; 3] {
         let map = &sights[self.view].image.map;
-        map.triangle(self.cells[i])
-            .map(|q| self.plane.direction(q))
+        map.triangle(self.cells[i]).map(|q| self.plane.direction(q))
     }
 
     /// Where the relief of its cell `i` and its backing may be.

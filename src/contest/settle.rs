@@ -218,9 +218,7 @@ fn place(sights: &[Sight], claim: &Claim, cells: &[CellId]) -> [f64; 3] {
 /// A conflict that nobody is to win.
 fn refusal(sights: &[Sight], claims: &[Claim], meeting: &Meeting) -> Refusal {
     Refusal {
-        view: sights[claims[meeting.claims[0]].view]
-            .name()
-            .to_owned(),
+        view: sights[claims[meeting.claims[0]].view].name().to_owned(),
         found: contest(sights, claims, meeting, 0, ""),
     }
 }

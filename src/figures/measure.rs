@@ -30,10 +30,7 @@ pub fn changed<S: AsRef<str>>(text: &str, sets: &[S], read: ReadFile) -> Result<
 ///
 /// # Errors
 /// Why a view cannot be seen.
-pub fn sights<'a>(
-    scene: &'a Scene,
-    field: &'a SupportField<'a>,
-) -> Result<Vec<Sight<'a>>, String> {
+pub fn sights<'a>(scene: &'a Scene, field: &'a SupportField<'a>) -> Result<Vec<Sight<'a>>, String> {
     let see = |view: &'a View| {
         let sight = Sight::new(view, field);
         sight.map_err(|e| told(&words::sight::unseen(&view.name, field.supports, &e)))

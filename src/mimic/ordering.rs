@@ -112,7 +112,11 @@ fn at_sides(sight: &Sight) -> Vec<Order> {
 
 /// The order of two points on one ray, with their depths and groups, and whether the first is behind; `None` if they are no
 /// farther `apart` than that, millimetres.
-pub(super) fn order(at: [(Anchor, f64); 2], groups: [GroupId; 2], apart: f64) -> Option<(bool, Order)> {
+pub(super) fn order(
+    at: [(Anchor, f64); 2],
+    groups: [GroupId; 2],
+    apart: f64,
+) -> Option<(bool, Order)> {
     let [own, other] = at.map(|a| a.1);
     if (own - other).abs() <= apart {
         return None;
@@ -240,9 +244,8 @@ struct FaceGroups {
 
 impl FaceGroups {
     fn new(map: &ViewMap, groups: &Groups) -> Self {
-        let entry = |(c, cell): (CellId, &Cell)| {
-            Some((cell.face?, cell.support?, groups.of_cell[c]?))
-        };
+        let entry =
+            |(c, cell): (CellId, &Cell)| Some((cell.face?, cell.support?, groups.of_cell[c]?));
         let mut entries: Vec<_> = map.all().filter_map(entry).collect();
         entries.sort_unstable();
         entries.dedup();

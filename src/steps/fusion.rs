@@ -76,11 +76,7 @@ pub struct Functional<'a> {
 impl<'a> Functional<'a> {
     /// `range` must hold all patches of a support: seams lead nowhere else.
     pub fn new(patches: &'a Patches, prices: Prices, range: std::ops::Range<usize>) -> Self {
-        let first = |at: usize| {
-            patches
-                .seams
-                .partition_point(|s| s.patches[0].at() < at)
-        };
+        let first = |at: usize| patches.seams.partition_point(|s| s.patches[0].at() < at);
         let seams = &patches.seams[first(range.start)..first(range.end)];
         let local = |s: &Seam| s.patches.map(|p| p.at() - range.start);
         let mut starts = vec![0u32; range.len() + 1];

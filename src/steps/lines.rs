@@ -143,7 +143,12 @@ pub fn lines(
 }
 
 /// Whether two patches share all vertices of the cut mesh that they shared before.
-fn stay_together(target: &Target, patches: &Patches, pair: [PatchId; 2], cut: [[u32; 3]; 2]) -> bool {
+fn stay_together(
+    target: &Target,
+    patches: &Patches,
+    pair: [PatchId; 2],
+    cut: [[u32; 3]; 2],
+) -> bool {
     let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p].face]);
     let mut places = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
     places.all(|(k, l)| a[k] != b[l] || cut[0][k] == cut[1][l])

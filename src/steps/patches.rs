@@ -181,11 +181,7 @@ type PatchKey = (SupportId, GroupId, FaceId);
 fn numbered(map: &ViewMap, groups: &Groups) -> (Vec<PatchKey>, Vec<Option<PatchId>>) {
     let key = |c: CellId| {
         let group = groups.of_cell[c]?;
-        Some((
-            groups.groups[group].support,
-            group,
-            map.cells[c].face?,
-        ))
+        Some((groups.groups[group].support, group, map.cells[c].face?))
     };
     let mut keys: Vec<PatchKey> = CellId::all(map.cells.len()).filter_map(key).collect();
     keys.sort_unstable();
@@ -326,7 +322,13 @@ fn seams(
     (seams, rims)
 }
 
-fn seam(target: &Target, patches: &[Patch], pair: [PatchId; 2], line: [DVec2; 2], scale: f64) -> Seam {
+fn seam(
+    target: &Target,
+    patches: &[Patch],
+    pair: [PatchId; 2],
+    line: [DVec2; 2],
+    scale: f64,
+) -> Seam {
     let faces = pair.map(|p| patches[p].face);
     let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
     let gap = |[a, b]: [(Anchor, f64); 2]| {

@@ -155,5 +155,8 @@ pub fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
         vertices: Vec::new(),
         faces: cells.iter().map(|c| c.corners.map(|p| p.0)).collect(),
     });
-    across.into_iter().map(|n| n.map(|c| c.map(CellId))).collect()
+    across
+        .into_iter()
+        .map(|n| n.map(|c| c.map(CellId)))
+        .collect()
 }

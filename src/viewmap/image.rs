@@ -37,7 +37,12 @@ impl<'a> Image<'a> {
     /// Which of its snapping grids held.
     pub fn ladder(&self) -> Ladder {
         let view = Some(self.view.name.as_str());
-        Ladder::new("snapping grid of a view map", view, self.map.grid, GRIDS.len())
+        Ladder::new(
+            "snapping grid of a view map",
+            view,
+            self.map.grid,
+            GRIDS.len(),
+        )
     }
 
     /// The same surface cut along lines that the eye cannot see.

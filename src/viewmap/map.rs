@@ -63,11 +63,7 @@ impl ViewMap {
 
     /// Mean of three image points.
     pub fn points_mean(&self, corners: [PointId; 3]) -> DVec2 {
-        corners
-            .iter()
-            .map(|p| self.points[*p])
-            .sum::<DVec2>()
-            / 3.0
+        corners.iter().map(|p| self.points[*p]).sum::<DVec2>() / 3.0
     }
 
     /// Solid angle of a cell in steradians, as [`ImagePlane::solid_angle`] has it.

@@ -75,7 +75,9 @@ impl Looking<'_> {
                 centre.lerp(corners[1], 0.9),
                 centre.lerp(corners[2], 0.9),
             ];
-            samples.iter().any(|q| self.seen_face(*q) == Some(FaceId::new(f)))
+            samples
+                .iter()
+                .any(|q| self.seen_face(*q) == Some(FaceId::new(f)))
         };
         (0..target.mesh.faces.len())
             .into_par_iter()

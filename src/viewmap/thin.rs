@@ -38,9 +38,7 @@ impl Work {
     fn new(map: &ViewMap, height: f64) -> Self {
         let mut around = vec![Vec::new(); map.points.len()];
         for (c, cell) in map.all() {
-            cell.corners
-                .iter()
-                .for_each(|p| around[*p].push(c));
+            cell.corners.iter().for_each(|p| around[*p].push(c));
         }
         let mut fixed = vec![false; map.points.len()];
         for (cell, across) in map.cells.iter().zip(&map.neighbours) {
@@ -187,7 +185,8 @@ impl Work {
         let Some(d) = label.corners.iter().copied().find(|p| *p != a && *p != b) else {
             return false;
         };
-        let upright = |x: PointId, y: PointId, z: PointId| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
+        let upright =
+            |x: PointId, y: PointId, z: PointId| orient(self.at(x), self.at(y), self.at(z)) > 0.0;
         let better =
             self.thinness([a, d, v]).min(self.thinness([d, b, v])) > self.thinness(cell.corners);
         if !upright(a, d, v) || !upright(d, b, v) || !better {

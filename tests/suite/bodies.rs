@@ -189,12 +189,12 @@ fn outlines_lie_on_the_support_where_they_are_to() {
         let map = &sight.image.map;
         let slab = Slab::new(&scene.supports[0], scene.views[0].eye).expect("a layer");
         let (mut ends, mut off) = (0, 0.0f64);
-        for (c, cell) in map.cells.iter().enumerate() {
+        for (c, cell) in map.all() {
             let Some(depth) = relief.depth[c] else {
                 continue;
             };
             for (k, z) in depth.into_iter().enumerate() {
-                let q = map.points[cell.corners[k] as usize];
+                let q = map.points[cell.corners[k]];
                 let (near, far) = sight.image.layer_in(&slab, c, k);
                 assert!(z >= near - 1e-9 && z <= far + 1e-9);
                 if cell.outline[k] {

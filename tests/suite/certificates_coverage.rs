@@ -11,6 +11,7 @@ use pillarforest::certify::conflicts::{self, Finished, SEAM_MM, Sighted, Trouble
 use pillarforest::certify::coverage::{Cause, Coverage, coverage};
 use pillarforest::contest::{CONTACT_MM, Contested, Frustum, Settlement, contested, settle};
 use pillarforest::geom::SQUARE_ARCMIN;
+use pillarforest::index::{CellId, ViewId};
 use pillarforest::kinds;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::relief::{Relief, relief};
@@ -18,8 +19,8 @@ use pillarforest::scene::defaults;
 use pillarforest::sight::Sight;
 use pillarforest::support::{Datum, Support};
 use pillarforest::viewmap::SupportField;
-use pillarforest::words::contest::refused;
 use pillarforest::words;
+use pillarforest::words::contest::refused;
 
 fn sight(
     name: &str,
@@ -210,10 +211,11 @@ fn a_layer_in_the_sight_of_another_view_takes_just_the_rays_it_meets() {
     // The layer's near end, 153 mm from the eye of "b", is as wide as the pillar's outline there.
     let half = 153.0 * (1.5f64 / 159.0).asin().tan();
     let border = -3.0 / (90.0 + half);
-    let lost: Vec<u32> = settlement.lost[1].iter().map(|l| l.cell).collect();
+    let lost: Vec<CellId> = settlement.lost[1].iter().map(|l| l.cell).collect();
     let map = &sights[1].image.map;
     let mut tested = [0, 0];
-    for (c, group) in sights[1].groups.of_cell.iter().enumerate() {
+    let of_cell = &sights[1].groups.of_cell;
+    for (c, group) in CellId::all(of_cell.len()).zip(of_cell) {
         let left = map
             .triangle(c)
             .iter()
@@ -222,7 +224,7 @@ fn a_layer_in_the_sight_of_another_view_takes_just_the_rays_it_meets() {
         if group.is_none() || (left - border).abs() < 2e-4 {
             continue;
         }
-        let taken = lost.binary_search(&(c as u32)).is_ok();
+        let taken = lost.binary_search(&c).is_ok();
         assert_eq!(taken, left < border, "cell from {left}, border {border}");
         tested[usize::from(taken)] += 1;
     }
@@ -450,7 +452,7 @@ impl Built {
         let sight = &self.sights[v];
         let finished = Finished::new(forest, &bvh, sight.image.field, names);
         let (relief, given_up) = (&self.reliefs[v], &forest.given_up[v]);
-        conflicts::sighted(&sight.into(), v, relief, given_up, &finished)
+        conflicts::sighted(sight, ViewId::new(v), relief, given_up, &finished)
     }
 }
 

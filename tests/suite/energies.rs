@@ -205,9 +205,9 @@ fn hidden(outcome: &Outcome) -> Vec<bool> {
         let corners = mesh.faces[face];
         corners.iter().for_each(|v| shares[*v as usize] += share);
     };
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         if let Some(face) = cell.face {
-            add(face as usize, 2.0 * map.solid_angle(c));
+            add(face.at(), 2.0 * map.solid_angle(c));
         }
     }
     for face in 0..mesh.faces.len() {
@@ -224,7 +224,7 @@ fn with_a_loose_layer_the_model_itself_is_the_result() {
     for energy in all.filter(|e| !matches!(e, Energy::Gradient(_))) {
         let outcome = Setting::roomy().solved(energy);
         let seen = outcome.map().cells.iter().filter_map(|c| c.face);
-        let corners = seen.flat_map(|f| outcome.target().mesh.faces[f as usize]);
+        let corners = seen.flat_map(|f| outcome.target().mesh.faces[f]);
         let s = corners.map(|v| outcome.depths.s[v as usize]);
         let (lo, hi) = s.fold((f64::MAX, f64::MIN), |(lo, hi), s| (lo.min(s), hi.max(s)));
         assert!(hi / lo - 1.0 < 1e-3, "{energy:?}: {lo} to {hi}");
@@ -358,7 +358,7 @@ fn linear_compression_is_a_linear_function_of_depth() {
         .map(|b| {
             let depth = far / b.upper;
             let s = b.anchor.relative_depth(&outcome.depths.s);
-            (depth, depth * s / outcome.depths.mu[b.group as usize])
+            (depth, depth * s / outcome.depths.mu[b.group])
         })
         .collect();
     let (lo, hi) = points.iter().fold((f64::MAX, f64::MIN), |(lo, hi), p| {

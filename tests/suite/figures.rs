@@ -4,6 +4,7 @@ use assert_cmd::Command;
 use pillarforest::certify::camouflage::Camouflage;
 use pillarforest::diag::Diagnostic;
 use pillarforest::figures::{Done, FIGURES, Figure, Job, Made, Workshop, files, json, make, page};
+use pillarforest::kinds::Crossings;
 use pillarforest::ladder::Ladder;
 use pillarforest::mimic::{Ending, Iterated, Round};
 use pillarforest::render::LightLikeness;
@@ -11,7 +12,6 @@ use pillarforest::report::{
     CertificateReport, NormalError, PrintReport, ProgramReport, Report, SolidReport, ViewReport,
 };
 use pillarforest::scene;
-use pillarforest::whole::Crossings;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use ndarray::{Array1, Array2};
 use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
 use pillarforest::geom::barycentric;
+use pillarforest::index::{CellId, FaceId, GroupId};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mesh::gate::gate;
@@ -82,11 +83,12 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
         assert!(told < 1e-6, "{told} mm");
         let mut numbers = Numbers(1);
         let (mut rays, mut off) = (0, 0);
-        for (c, corners) in solved.relief.depth.iter().enumerate() {
+        let depth = &solved.relief.depth;
+        for (c, corners) in CellId::all(depth.len()).zip(depth) {
             let (Some(z), Some(s)) = (corners, solved.map().cells[c].support) else {
                 continue;
             };
-            let support = &setting.supports[s as usize];
+            let support = &setting.supports[s];
             let SupportKind::Pillar { axis, .. } = &support.kind else {
                 panic!("pillars carry reliefs")
             };
@@ -135,18 +137,18 @@ fn reliefs_stay_in_their_layers_on_every_ray() {
 fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) {
     let (target, map, groups) = (solved.target(), solved.map(), solved.groups());
     let (field, depths) = (SupportField::new(&setting.supports), &solved.depths);
-    let mut seen: Vec<(u32, u32)> = Vec::new();
-    for (c, cell) in map.cells.iter().enumerate() {
+    let mut seen: Vec<(FaceId, GroupId)> = Vec::new();
+    for (c, cell) in map.all() {
         if let (Some(f), Some(g)) = (cell.face, groups.of_cell[c]) {
             seen.push((f, g));
         }
     }
     seen.sort_unstable();
     seen.dedup();
-    let depth_on = |face: u32, q: DVec2, s: &dyn Fn(u32) -> f64| {
-        let [a, b, c] = target.image_of(face as usize);
+    let depth_on = |face: FaceId, q: DVec2, s: &dyn Fn(u32) -> f64| {
+        let [a, b, c] = target.image_of(face.at());
         let beta = barycentric(a, b, c, q).to_array();
-        let v = target.mesh.faces[face as usize];
+        let v = target.mesh.faces[face];
         let inverse: f64 = (0..3)
             .map(|k| beta[k] / (s(v[k]) * target.depth[v[k] as usize]))
             .sum();
@@ -156,18 +158,18 @@ fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) 
     let (mut wrong, mut met) = (0, 0);
     for _ in 0..rays {
         let (face, _) = seen[numbers.below(seen.len())];
-        let (beta, corners) = (numbers.inside(), target.image_of(face as usize));
+        let (beta, corners) = (numbers.inside(), target.image_of(face.at()));
         let q: DVec2 = (0..3).map(|k| beta[k] * corners[k]).sum();
         let Some((support, _)) = field.first_hit(setting.eye, map.plane.direction(q)) else {
             continue;
         };
         let here: Vec<(f64, f64)> = seen
             .iter()
-            .filter(|(_, g)| groups.groups[*g as usize].support == support)
+            .filter(|(_, g)| groups.groups[*g].support == support)
             .filter_map(|(f, g)| {
                 let model = depth_on(*f, q, &|_| 1.0)?;
                 let made = depth_on(*f, q, &|v| depths.s[v as usize])?;
-                Some((model, made / depths.mu[*g as usize]))
+                Some((model, made / depths.mu[*g]))
             })
             .collect();
         for (i, a) in here.iter().enumerate() {

@@ -4,6 +4,7 @@ use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::geom::{barycentric, orient, solid_angle};
 use pillarforest::groups::{anchor, groups};
+use pillarforest::index::{CellId, FaceId, GroupId};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
@@ -65,7 +66,7 @@ impl Outcome {
     fn seen_vertices(&self) -> Vec<usize> {
         let faces = self.map().cells.iter().filter_map(|c| c.face);
         let mut list: Vec<usize> = faces
-            .flat_map(|f| self.target().mesh.faces[f as usize])
+            .flat_map(|f| self.target().mesh.faces[f])
             .map(|v| v as usize)
             .collect();
         list.sort_unstable();
@@ -84,7 +85,7 @@ impl Outcome {
     fn excess(&self, back: impl Fn(f64, f64) -> f64) -> f64 {
         let excess = self.groups().bounds.iter().map(|b| {
             let s = b.anchor.relative_depth(&self.depths.s);
-            let scaled = back(s, self.depths.mu[b.group as usize]);
+            let scaled = back(s, self.depths.mu[b.group]);
             (scaled - b.upper).max(b.lower - scaled) / (b.upper - b.lower)
         });
         excess.fold(f64::MIN, f64::max)
@@ -93,7 +94,7 @@ impl Outcome {
 
 /// Solid angle of all cells with a face.
 fn seen_sr(map: &ViewMap) -> f64 {
-    let seen = (0..map.cells.len()).filter(|c| map.cells[*c].face.is_some());
+    let seen = CellId::all(map.cells.len()).filter(|c| map.cells[*c].face.is_some());
     seen.map(|c| map.solid_angle(c)).sum()
 }
 
@@ -131,7 +132,7 @@ fn cells_fill_their_window_without_overlap() {
         .iter()
         .fold((first, first), |(lo, hi), q| (lo.min(*q), hi.max(*q)));
     let window = hi - lo + 2.0 * 0.02 * (hi - lo).max_element();
-    let areas = (0..map.cells.len()).map(|c| {
+    let areas = CellId::all(map.cells.len()).map(|c| {
         let [a, b, c] = map.triangle(c);
         orient(a, b, c) / 2.0
     });
@@ -151,18 +152,18 @@ fn every_ray_meets_what_its_cell_says() {
     for (i, j) in (0..samples).flat_map(|i| (0..samples).map(move |j| (i, j))) {
         let at = |k: i32| 0.084 * (2.0 * f64::from(k) / f64::from(samples) - 0.987);
         let q = DVec2::new(at(i), at(j));
-        let holds = |c: &usize| {
+        let holds = |c: &CellId| {
             let [a, b, c] = map.triangle(*c);
             barycentric(a, b, c, q).min_element() >= 0.0
         };
-        let Some(cell) = (0..map.cells.len()).find(holds) else {
+        let Some(cell) = CellId::all(map.cells.len()).find(holds) else {
             panic!("{q} lies in no cell")
         };
         let direction = plane.direction(q);
         let face = target
             .bvh
             .first_hit(plane.eye, direction)
-            .map(|h| h.face as u32);
+            .map(|h| FaceId::new(h.face));
         let support = field.first_hit(plane.eye, direction).map(|h| h.0);
         wrong += usize::from((face, support) != (map.cells[cell].face, map.cells[cell].support));
     }
@@ -182,7 +183,7 @@ fn a_ball_hides_the_ball_behind_it() {
     both.append(&behind);
     let map = Setting::new(both, supports).seen().map;
     assert_near(seen_sr(&map), alone, 1e-6);
-    let last = front.faces.len() as u32;
+    let last = FaceId::new(front.faces.len());
     assert!(map.cells.iter().all(|c| c.face.is_none_or(|f| f < last)));
 }
 
@@ -194,8 +195,8 @@ fn a_wide_pillar_covers_everything_and_a_thin_one_its_share() {
             vec![pillar(DVec2::ZERO, radius, 256, Datum::Plane)],
         );
         let map = setting.seen().map;
-        let carried = |c: &usize| map.cells[*c].face.is_some() && map.cells[*c].support.is_some();
-        let cells = (0..map.cells.len()).filter(carried);
+        let carried = |c: &CellId| map.cells[*c].face.is_some() && map.cells[*c].support.is_some();
+        let cells = CellId::all(map.cells.len()).filter(carried);
         cells.map(|c| map.solid_angle(c)).sum::<f64>() / seen_sr(&map)
     };
     assert_near(share(20.0), 1.0, 1e-12);
@@ -235,13 +236,9 @@ fn every_group_touches_its_far_bound_and_oversteps_none() {
     for setting in [Setting::tight(), Setting::roomy()] {
         for energy in [NORMAL, CURVATURE] {
             let outcome = setting.solved(energy);
-            for g in 0..outcome.groups().groups.len() {
+            for g in GroupId::all(outcome.groups().groups.len()) {
                 let mu = outcome.depths.mu[g];
-                let bounds = outcome
-                    .groups()
-                    .bounds
-                    .iter()
-                    .filter(|b| b.group == g as u32);
+                let bounds = outcome.groups().bounds.iter().filter(|b| b.group == g);
                 let reach =
                     bounds.map(|b| b.anchor.relative_depth(&outcome.depths.s) / mu / b.upper);
                 assert_near(reach.fold(0.0, f64::max), 1.0, 1e-12);
@@ -272,8 +269,7 @@ fn bounds_at_vertices_hold_exactly() {
             .iter()
             .filter(|b| at_vertex(&b.anchor.weights))
         {
-            let s =
-                b.anchor.relative_depth(&outcome.depths.s) / outcome.depths.mu[b.group as usize];
+            let s = b.anchor.relative_depth(&outcome.depths.s) / outcome.depths.mu[b.group];
             let slack = 1e-5 * (b.upper - b.lower);
             assert!(
                 s > b.lower - slack && s < b.upper + slack,
@@ -291,13 +287,13 @@ fn reliefs_lie_inside_their_layers() {
     let outcome = setting.solved(NORMAL);
     let map = outcome.map();
     let mut corners = 0;
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         let (Some(depth), Some(support)) = (outcome.relief.depth[c], cell.support) else {
             continue;
         };
-        let slab = outcome.groups().slabs[support as usize].expect("a layer");
+        let slab = outcome.groups().slabs[support].expect("a layer");
         for (p, z) in cell.corners.iter().zip(depth) {
-            let offset = slab.offset(map.plane.point(map.points[*p as usize], z));
+            let offset = slab.offset(map.plane.point(map.points[*p], z));
             assert!((-2.0 - 1e-9..=1.0 + 1e-9).contains(&offset), "{offset} mm");
             corners += 1;
         }
@@ -311,8 +307,8 @@ fn anchors_give_the_depth_of_their_point() {
     for cell in &map.cells {
         let Some(face) = cell.face else { continue };
         let q = map.points_mean(cell.corners);
-        let (anchor, depth) = anchor(&target, face as usize, q);
-        let [a, b, c] = target.mesh.corners(face as usize);
+        let (anchor, depth) = anchor(&target, face, q);
+        let [a, b, c] = target.mesh.corners(face.at());
         let normal = (b - a).cross(c - a).normalize();
         let off = (map.plane.point(q, depth) - a).dot(normal);
         assert!(off.abs() < 1e-3, "{off} mm off its face");
@@ -385,9 +381,9 @@ impl Outcome {
                 .iter()
                 .for_each(|v| shares[*v as usize] += share);
         };
-        for (c, cell) in map.cells.iter().enumerate() {
+        for (c, cell) in map.all() {
             if let Some(face) = cell.face {
-                add(face as usize, 2.0 * map.solid_angle(c));
+                add(face.at(), 2.0 * map.solid_angle(c));
             }
         }
         for face in 0..mesh.faces.len() {

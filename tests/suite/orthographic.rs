@@ -10,6 +10,7 @@ use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::{FAR_MM, ImagePlane, READING_MM};
+use pillarforest::index::CellId;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use pillarforest::scene::{self, Scene};
@@ -66,8 +67,7 @@ fn heights(found: &Outcome, point: DVec3) -> Vec<f64> {
     for bound in &found.groups().bounds {
         let mut terms = bound.anchor.terms();
         if let (Some((v, _)), None) = (terms.next(), terms.next()) {
-            let z =
-                found.target().depth[v] * found.depths.s[v] / found.depths.mu[bound.group as usize];
+            let z = found.target().depth[v] * found.depths.s[v] / found.depths.mu[bound.group];
             heights[v] = found.map().plane.depth(point) - z;
         }
     }
@@ -145,7 +145,8 @@ fn an_orthographic_relief_stays_in_its_layer() {
         assert!(violation <= 1e-6, "{energy:?}: {violation}");
         assert!(found.relief.clamp_mm <= 1e-6, "{}", found.relief.clamp_mm);
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
-        for (c, depth) in found.relief.depth.iter().enumerate() {
+        let depth = &found.relief.depth;
+        for (c, depth) in CellId::all(depth.len()).zip(depth) {
             for (q, z) in found
                 .map()
                 .triangle(c)

@@ -6,6 +6,7 @@ use pillarforest::compile::{Build, build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::diagram::section::{Section, groups_sheet, section};
 use pillarforest::geom::{barycentric, polygon_area};
+use pillarforest::index::CellId;
 use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, NormalOptions};
 use pillarforest::scene;
 
@@ -75,7 +76,7 @@ fn every_value_is_that_of_its_ray() {
         let slack = 1e-6 + 1e-3 * (s.model[1] - s.model[0]).abs();
         assert!((middle(s.model) - hit.t).abs() < slack, "{s:?} {hit:?}");
         let Some(l) = s.laid else { continue };
-        let cell = (0..out.map().cells.len())
+        let cell = CellId::all(out.map().cells.len())
             .find(|c| {
                 let [a, b, c] = out.map().triangle(*c);
                 barycentric(a, b, c, q).min_element() >= 0.0
@@ -83,12 +84,12 @@ fn every_value_is_that_of_its_ray() {
             .expect("a cell");
         let group = section.groups[l.group].group;
         assert_eq!(out.groups().of_cell[cell], Some(group));
-        let support = out.groups().groups[group as usize].support;
+        let support = out.groups().groups[group].support;
         assert_eq!(
             section.groups[l.group].support,
-            setting.supports[support as usize].name
+            setting.supports[support].name
         );
-        let slab = out.groups().slabs[support as usize].expect("a layer");
+        let slab = out.groups().slabs[support].expect("a layer");
         let (near, far) = out.sight.image.layer_at(&slab, support, q);
         assert!((middle(l.near) - near).abs() < 1e-6 && (middle(l.far) - far).abs() < 1e-6);
         let [a, b, c] = out.map().triangle(cell);

@@ -3,6 +3,7 @@
 use crate::shapes::{MIDDLE, Setting, ball, wavy};
 use glam::{DVec2, DVec3};
 use pillarforest::groups::anchor;
+use pillarforest::index::CellId;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
 use pillarforest::relief::{Relief, relief};
@@ -61,13 +62,13 @@ fn torn_with(setting: &Setting, steps: &StepOptions) -> (Torn<'static>, Relief) 
 fn error_deg(image: &Image, relief: &Relief) -> f64 {
     let Image { target, map, .. } = image;
     let (mut sum, mut weight) = (0.0, 0.0);
-    for (c, depth) in relief.depth.iter().enumerate() {
+    for (c, depth) in CellId::all(relief.depth.len()).zip(&relief.depth) {
         let (Some(depth), Some(face)) = (depth, map.cells[c].face) else {
             continue;
         };
         let corners = map.triangle(c);
         let [p, q, r] = [0, 1, 2].map(|k| map.plane.point(corners[k], depth[k]));
-        let normal = target.mesh.normal(face as usize);
+        let normal = target.mesh.normal(face.at());
         let turned = (q - p).cross(r - p);
         let angle = turned
             .cross(normal)
@@ -91,12 +92,12 @@ fn whole_error(setting: &Setting) -> f64 {
 }
 
 /// Sides between two cells with reliefs on one support: both cells, and for both ends which corners of theirs lie there.
-fn sides(map: &ViewMap, relief: &Relief) -> Vec<([usize; 2], [[usize; 2]; 2])> {
+fn sides(map: &ViewMap, relief: &Relief) -> Vec<([CellId; 2], [[usize; 2]; 2])> {
     let mut sides = Vec::new();
-    let carried = |c: &usize| relief.depth[*c].is_some();
-    for c in (0..map.cells.len()).filter(carried) {
+    let carried = |c: &CellId| relief.depth[*c].is_some();
+    for c in CellId::all(map.cells.len()).filter(carried) {
         for k in 0..3 {
-            let Some(n) = map.neighbours[c][k].map(|n| n as usize) else {
+            let Some(n) = map.neighbours[c][k] else {
                 continue;
             };
             if n < c || !carried(&n) || map.cells[c].support != map.cells[n].support {
@@ -131,11 +132,11 @@ fn every_corner_stays_in_its_layer() {
         let (torn, relief) = torn_with(&setting, &STEPS);
         let map = &torn.sight.image.map;
         assert!(relief.clamp_mm < 1e-6, "clamped by {} mm", relief.clamp_mm);
-        for (c, depth) in relief.depth.iter().enumerate() {
+        for (c, depth) in CellId::all(relief.depth.len()).zip(&relief.depth) {
             let (Some(depth), Some(support)) = (depth, map.cells[c].support) else {
                 continue;
             };
-            let slab = torn.sight.groups.slabs[support as usize].expect("a layer");
+            let slab = torn.sight.groups.slabs[support].expect("a layer");
             for (q, z) in map.triangle(c).into_iter().zip(depth) {
                 let (near, far) = torn.sight.image.layer_at(&slab, support, q);
                 assert!(
@@ -151,13 +152,13 @@ fn every_corner_stays_in_its_layer() {
 fn sheets_keep_their_order_along_contours() {
     let (torn, relief) = torn_with(&contoured(), &STEPS);
     let Image { map, target, .. } = &torn.sight.image;
-    let model = |c: usize, k: usize| {
+    let model = |c: CellId, k: usize| {
         let cell = &map.cells[c];
-        let q = map.points[cell.corners[k] as usize];
+        let q = map.points[cell.corners[k]];
         let face = cell.face.expect("a relief shows a face");
-        anchor(target, face as usize, q).1
+        anchor(target, face, q).1
     };
-    let depth = |c: usize, k: usize| relief.depth[c].expect("a relief")[k];
+    let depth = |c: CellId, k: usize| relief.depth[c].expect("a relief")[k];
     let (mut met, mut worst) = (0, f64::MIN);
     for ([c, n], ends) in sides(map, &relief) {
         for [k, l] in ends {
@@ -182,12 +183,12 @@ fn steps_at_vertices(torn: &Torn, relief: &Relief) -> Vec<f64> {
     let mut steps = Vec::new();
     for ([c, n], _) in sides(map, relief) {
         let faces = [c, n].map(|c| map.cells[c].face.expect("a relief shows a face"));
-        let group = |c: usize| torn.sight.groups.of_cell[c];
+        let group = |c: CellId| torn.sight.groups.of_cell[c];
         if faces[0] == faces[1] || group(c) != group(n) {
             continue;
         }
-        for v in mesh.faces[faces[0] as usize].map(|v| v as usize) {
-            for w in mesh.faces[faces[1] as usize].map(|w| w as usize) {
+        for v in mesh.faces[faces[0]].map(|v| v as usize) {
+            for w in mesh.faces[faces[1]].map(|w| w as usize) {
                 if v != w && mesh.vertices[v] == mesh.vertices[w] {
                     steps.push(target.depth[v] * (torn.depths.s[v] - torn.depths.s[w]).abs());
                 }

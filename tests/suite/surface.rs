@@ -310,7 +310,7 @@ fn solved(energy: Energy, marks: impl Fn(&TriMesh) -> Marks) -> (Target, Depths,
     let mut seen = vec![false; target.mesh.faces.len()];
     for cell in &map.cells {
         if let Some(f) = cell.face {
-            seen[f as usize] = true;
+            seen[f] = true;
         }
     }
     let (mut sum, mut area) = (0.0, 0.0);

@@ -10,6 +10,7 @@ use pillarforest::carve::{Operand, carve};
 use pillarforest::certify::tolerance::{
     EYES_MM, ONE_PICTURE_RAD, Tolerance, Way, confirm, opened, tolerance,
 };
+use pillarforest::index::SupportId;
 use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
 use pillarforest::relief::relief;
 use pillarforest::steps::{UNSEEN_RAD, torn};
@@ -53,7 +54,7 @@ impl Outcome {
     }
 
     /// Depths of a flat relief on one support.
-    fn depth_on(&self, support: u32) -> f64 {
+    fn depth_on(&self, support: SupportId) -> f64 {
         let cells = self.map().cells.iter().zip(&self.relief.depth);
         let depths = cells.filter(|(c, _)| c.support == Some(support));
         let depths: Vec<f64> = depths.filter_map(|(_, d)| *d).flatten().collect();
@@ -115,7 +116,7 @@ fn movements_and_distance_are_those_of_two_points_on_a_ray() {
     let seen = two_blocks(aside);
     let lean = (aside / 138.0).atan();
     // Depths are along y; at the ends of the cut the rays are longer by 0.1 %.
-    let [a, b] = [0, 1].map(|s| seen.depth_on(s) / lean.cos());
+    let [a, b] = [0, 1].map(|s| seen.depth_on(SupportId(s)) / lean.cos());
     assert!(b - a > 15.0, "{a} {b}");
     let found = seen.tolerance();
     for (angle, movement) in [
@@ -135,7 +136,7 @@ fn movements_and_distance_are_those_of_two_points_on_a_ray() {
         let mut names = worst.supports.clone();
         names.sort();
         assert_eq!(names, ["left", "right"]);
-        assert!((worst.place_mm[1] - (EYE.y + seen.depth_on(0))).abs() < 0.01);
+        assert!((worst.place_mm[1] - (EYE.y + seen.depth_on(SupportId(0)))).abs() < 0.01);
     }
 }
 

@@ -4,6 +4,7 @@ use super::shapes::{Outcome, Setting, ball, obj};
 use glam::{DVec2, DVec3};
 use pillarforest::compile;
 use pillarforest::diag::Diagnostic;
+use pillarforest::index::{CellId, FacetId, SupportId};
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
@@ -78,7 +79,7 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
     let map = &sight.image.map;
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
     let (mut rays, mut merged, mut deepest) = (0, 0, 0.0f64);
-    for (c, cell) in map.cells.iter().enumerate() {
+    for (c, cell) in map.all() {
         let Some(depth) = relief.depth[c] else {
             continue;
         };
@@ -89,11 +90,14 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
             let q: DVec2 = (0..3).map(|k| share[k] * map.triangle(c)[k]).sum();
             let z = 1.0 / (0..3).map(|k| share[k] / depth[k]).sum::<f64>();
             let direction = map.plane.direction(q);
-            let Some((first, leaves)) = field.wall(0, map.plane.eye, direction) else {
+            let Some((first, leaves)) = field.wall(SupportId(0), map.plane.eye, direction) else {
                 continue;
             };
             // Thin cells are merged away, so that some reach beyond their facet by two micrometres.
-            let planes = (Some(first.face as u32), Some(leaves.face as u32));
+            let planes = (
+                Some(FacetId::new(first.face)),
+                Some(FacetId::new(leaves.face)),
+            );
             if planes != (cell.facet, cell.leaves) {
                 merged += 1;
                 continue;
@@ -152,7 +156,7 @@ fn too_thin_walls_carry_reliefs_on_their_surface() {
     let Outcome { sight, relief, .. } = Setting::of(&scene).solved(scene.relief.energy());
     let map = &sight.image.map;
     let mut deepest = f64::NEG_INFINITY;
-    for (c, depth) in relief.depth.iter().enumerate() {
+    for (c, depth) in CellId::all(relief.depth.len()).zip(&relief.depth) {
         let Some(depth) = depth else { continue };
         let facet = map.cells[c].facet.expect("a support");
         for (z, q) in depth.iter().zip(map.triangle(c)) {

@@ -55,9 +55,7 @@ pub fn section(
         }
         cut_groups[laid.group].width += stretch.x[1] - stretch.x[0];
     }
-    let carries = |s: SupportId| {
-        (cut_groups.iter()).any(|g| groups.groups[g.group].support == s)
-    };
+    let carries = |s: SupportId| (cut_groups.iter()).any(|g| groups.groups[g.group].support == s);
     let supports = SupportId::all(field.supports.len()).zip(field.supports);
     let supports = supports.filter(|(_, s)| !matches!(s.kind, SupportKind::Base { .. }));
     Section {

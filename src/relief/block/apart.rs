@@ -102,9 +102,7 @@ fn overlapping_fans(block: &BlockCells, moved: &BTreeMap<FanId, DVec2>) -> BTree
     for f in FanId::all(block.fans.len()) {
         let fan = &block.fans[f];
         let around = || fan.corners.iter().flat_map(|at| block.fan_of[at.cell]);
-        if !fan.closed
-            && around().any(|f| moved.contains_key(&f))
-            && winding(block, f) > FULL_TURN
+        if !fan.closed && around().any(|f| moved.contains_key(&f)) && winding(block, f) > FULL_TURN
         {
             bad.extend(around());
         }

@@ -39,12 +39,7 @@ pub fn closed(block: &BlockCells, back: impl Fn(CellId, DVec2) -> f64) -> TriMes
 }
 
 /// The middle one of what the cells around a point say: where two facets of a support meet, a thin cell may carry the wrong one.
-fn back_at(
-    block: &BlockCells,
-    f: FanId,
-    q: DVec2,
-    back: &impl Fn(CellId, DVec2) -> f64,
-) -> f64 {
+fn back_at(block: &BlockCells, f: FanId, q: DVec2, back: &impl Fn(CellId, DVec2) -> f64) -> f64 {
     let corners = block.fans[f].corners.iter();
     let mut depths: Vec<f64> = corners.map(|at| back(block.in_map[at.cell], q)).collect();
     depths.sort_by(f64::total_cmp);

@@ -6,9 +6,9 @@ use crate::certify::coverage::{Cause, Gap};
 use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Rotation, Way, WorstCut};
 use crate::formats::markup::escaped;
 use crate::geom::READING_MM;
+use crate::kinds::Crossings;
 use crate::report::certificate::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
-use crate::kinds::Crossings;
 use std::fmt::Write as _;
 
 const ARCMIN2: &str = "arcmin²";

@@ -1,6 +1,6 @@
 //! `detail`: models with fewer vertices for quick looks, with all that is said of their vertices.
 
-use crate::mesh::{Attributes, NO_UV, Original, VertexScalar, TriMesh, Uvs, simplified};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, simplified};
 use crate::scene::defaults;
 use crate::scene::text::{Field, Reader};
 use crate::view::Marks;

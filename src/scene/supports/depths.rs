@@ -168,7 +168,9 @@ pub fn settled(
         let help = "`hits` belong into the `depth` of supports that are no pillars";
         reader.problems.push(error_at(span, text).help(help));
     }
-    let datum = wish.datum.map_or(defaults::LAYER.datum(), |(datum, _)| datum);
+    let datum = wish
+        .datum
+        .map_or(defaults::LAYER.datum(), |(datum, _)| datum);
     let (room, of) = match (datum, round) {
         (Datum::Plane, true) => (reach, "the radius"),
         (Datum::Plane, false) => (width / 2.0, "half the width"),

@@ -1,8 +1,9 @@
 //! The descent against the exact optimum over the same levels, on small sheets of triangles.
 
 use super::super::min_cut::tests::Lcg;
-use super::super::patches::{Patch, PatchPoint, Patches, Seam};
+use super::super::patches::{Patch, PatchId, PatchPoint, Patches, Seam};
 use super::*;
+use crate::index::{FaceId, GroupId, SupportId};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -103,9 +104,9 @@ impl Sheet {
         let room = [a, b, c].map(|p| (((BACK - THICK) / p.z).ln(), (BACK / p.z).ln()));
         let unit = |k| [0, 1, 2].map(|j| f64::from(j == k));
         Patch {
-            face: i as u32,
-            group: u32::from(self.behind(self.triangle(i).0)),
-            support: 0,
+            face: FaceId::new(i),
+            group: GroupId(u32::from(self.behind(self.triangle(i).0))),
+            support: SupportId(0),
             seen_mm2,
             tilt: [cot(a, b, c), cot(b, c, a), cot(c, a, b)]
                 .map(|cot| seen_mm2 * h * h * cot / (2.0 * area)),
@@ -140,7 +141,7 @@ impl Sheet {
         let (at_i, at_j) = (self.corners(i), self.corners(j));
         let line = ends.map(|(k, _)| at_i[k].truncate());
         Some(Seam {
-            patches: [i as u32, j as u32],
+            patches: [PatchId::new(i), PatchId::new(j)],
             ends: ends.map(|(k, l)| [unit(k), unit(l)]),
             gaps: ends.map(|(k, l)| (at_j[l].z / at_i[k].z).ln()),
             length_mm: line[0].distance(line[1]),
@@ -180,7 +181,7 @@ fn prices(length: f64, ordered: bool) -> Prices {
 
 fn start(sheet: &Sheet, patches: &Patches) -> PatchDepths {
     pressed(&patches.patches, |p| {
-        sheet.corners(p.face as usize).map(|c| c.z)
+        sheet.corners(p.face.at()).map(|c| c.z)
     })
 }
 
@@ -202,8 +203,8 @@ fn optimum(f: &Functional, labels: &[Vec<[f64; 3]>]) -> f64 {
         let sides: Vec<(usize, &Seam)> = f
             .seams
             .iter()
-            .filter(|s| s.patches[1] as usize == i)
-            .map(|s| (s.patches[0] as usize, s))
+            .filter(|s| s.patches[1].at() == i)
+            .map(|s| (s.patches[0].at(), s))
             .collect();
         let mut longer = Vec::with_capacity(table.len() * own.len());
         for (at, before) in table.iter().enumerate() {
@@ -220,11 +221,8 @@ fn optimum(f: &Functional, labels: &[Vec<[f64; 3]>]) -> f64 {
         }
         (open, table) = ([&open[..], &[i]].concat(), longer);
         let done = |j: usize| {
-            let of_j = |s: &&Seam| s.patches[0] as usize == j;
-            f.seams
-                .iter()
-                .filter(of_j)
-                .all(|s| s.patches[1] as usize <= i)
+            let of_j = |s: &&Seam| s.patches[0].at() == j;
+            f.seams.iter().filter(of_j).all(|s| s.patches[1].at() <= i)
         };
         while let Some(place) = open.iter().position(|j| done(*j)) {
             let inner: usize = open[place + 1..].iter().map(|j| labels[*j].len()).product();
