@@ -16,7 +16,7 @@ const OWNERS: [(&str, &[&str]); 15] = [
     ("faer", &["mimic/dual/factor.rs"]),
     ("manifold_rust", &["carve/boolean.rs"]),
     ("i_overlay", &["carve/hollow.rs"]),
-    ("tobj", &["formats/"]),
+    ("tobj", &["formats/read_obj.rs"]),
     ("zip", &["formats/"]),
     ("quick_xml", &["formats/"]),
     ("gltf_json", &["formats/"]),

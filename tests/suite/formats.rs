@@ -117,7 +117,7 @@ fn read_model(xml: &[u8]) -> Model {
             Event::Eof => return model,
             Event::End(e) if e.name().as_ref() == b"metadata" => in_metadata = false,
             Event::Text(text) if in_metadata => {
-                model.metadata.last_mut().unwrap().1 += &text.decode().unwrap()
+                model.metadata.last_mut().unwrap().1 += &text.decode().unwrap();
             }
             Event::GeneralRef(entity) if in_metadata => {
                 let name = entity.decode().unwrap();
@@ -342,7 +342,7 @@ fn a_glb_is_valid_in_metres_and_faceted() {
     let (root, binary) = chunks(&glb);
     let mut problems = Vec::new();
     root.validate(&root, gltf_json::Path::new, &mut |path, error| {
-        problems.push(format!("{}: {error}", path()))
+        problems.push(format!("{}: {error}", path()));
     });
     assert!(problems.is_empty(), "{problems:?}");
     for (k, solid) in solids.iter().enumerate() {

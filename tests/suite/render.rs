@@ -378,7 +378,7 @@ fn a_ball_looks_the_same_all_around_the_turntable() {
     let draw = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
-        pool.install(|| turntable::turntable(&view, &forest, &bvh, 100))
+        pool.install(|| turntable(&view, &forest, &bvh, 100))
     };
     let png = draw(1);
     assert_eq!(png, draw(3));
