@@ -254,8 +254,8 @@ fn gap(seen: &Seen, views: &[&str], field: &SupportField, why: Why, cells: &[u32
     let map = seen.map;
     let size = |c: &u32| map.solid_angle(*c as usize);
     let centre = |c: &u32| map.points_mean(map.cells[*c as usize].corners);
-    let whole: f64 = cells.iter().map(size).sum();
-    let mean = cells.iter().map(|c| size(c) * centre(c)).sum::<DVec2>() / whole;
+    let area: f64 = cells.iter().map(size).sum();
+    let mean = cells.iter().map(|c| size(c) * centre(c)).sum::<DVec2>() / area;
     // The cell nearest to the mean: the mean itself may lie outside of a bent gap.
     let middle = cells.iter().min_by(|a, b| {
         let from_mean = |c: &u32| centre(c).distance_squared(mean);
@@ -274,7 +274,7 @@ fn gap(seen: &Seen, views: &[&str], field: &SupportField, why: Why, cells: &[u32
         Why::Infeasible(s) => (Cause::Infeasible, name(s)),
     };
     Gap {
-        arcmin2: whole * SQUARE_ARCMIN,
+        arcmin2: area * SQUARE_ARCMIN,
         place_mm: without_minus_zero(map.plane.point(q, depth)),
         right_deg: q.x.atan().to_degrees(),
         up_deg: q.y.atan().to_degrees(),
