@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// One piece of work with the way of doing it that held.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ladder {
-    /// What is tried in turn, in a few words: `places of pieces`.
+    /// What is tried in turn, in a few words: `position on the bed`.
     pub name: String,
     /// Whose work it was (a view, a support, a piece); none if of everything, or of all that held at the first rung.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -256,8 +256,8 @@ fn gap(sight: &Sight, views: &[&str], why: Why, cells: &[CellId]) -> Gap {
     let (map, supports) = (&sight.image.map, sight.image.field.supports);
     let size = |c: &CellId| map.solid_angle(*c);
     let centre = |c: &CellId| map.points_mean(map.cells[*c].corners);
-    let whole: f64 = cells.iter().map(size).sum();
-    let mean = cells.iter().map(|c| size(c) * centre(c)).sum::<DVec2>() / whole;
+    let area: f64 = cells.iter().map(size).sum();
+    let mean = cells.iter().map(|c| size(c) * centre(c)).sum::<DVec2>() / area;
     // The cell nearest to the mean: the mean itself may lie outside of a bent gap.
     let middle = cells.iter().min_by(|a, b| {
         let from_mean = |c: &CellId| centre(c).distance_squared(mean);
@@ -276,7 +276,7 @@ fn gap(sight: &Sight, views: &[&str], why: Why, cells: &[CellId]) -> Gap {
         Why::Infeasible(s) => (Cause::Infeasible, name(s)),
     };
     Gap {
-        arcmin2: whole * SQUARE_ARCMIN,
+        arcmin2: area * SQUARE_ARCMIN,
         place_mm: without_minus_zero(map.plane.point(q, depth)),
         right_deg: q.x.atan().to_degrees(),
         up_deg: q.y.atan().to_degrees(),

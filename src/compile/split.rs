@@ -126,11 +126,10 @@ fn spread(split: &Split) -> Result<(Vec<Solid>, Vec<Ladder>), String> {
     let (solids, mended): (Vec<Solid>, Vec<usize>) = placed.into_iter().unzip();
     let mut ladders = vec![Ladder::new("origin of all pieces", None, shift, 2)];
     let of_pieces = split.pieces.iter().zip(mended);
-    ladders.extend(
-        of_pieces.map(|(p, rung)| {
-            Ladder::new("moving of a piece, mended at last", Some(&p.name), rung, 2)
-        }),
-    );
+    ladders
+        .extend(of_pieces.map(|(p, rung)| {
+            Ladder::new("moving a piece, mended at last", Some(&p.name), rung, 2)
+        }));
     Ok((solids, ladders))
 }
 

@@ -21,8 +21,8 @@ pub const STAIRS: Figure = Figure {
 fn stairs(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let torn = shop.build("with steps", "fig03-stairs", &[])?;
     let never = with(&["energy=Normal(steps: Never)"], &LEAN);
-    let whole = shop.build("in one piece", "fig03-stairs", &never)?;
-    for (name, made) in [("with steps", &torn), ("in one piece", &whole)] {
+    let unbroken = shop.build("in one piece", "fig03-stairs", &never)?;
+    for (name, made) in [("with steps", &torn), ("in one piece", &unbroken)] {
         let groups = made.groups()?;
         found.case(name, made, &[("groups", groups), layer(made)?.0])?;
     }
@@ -109,15 +109,15 @@ pub const WAVE: Figure = Figure {
 };
 
 fn wave(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
-    let whole = shop.build("in one piece", "fig13-wave", &[])?;
+    let unbroken = shop.build("in one piece", "fig13-wave", &[])?;
     let allowed = with(&["energy=Normal(steps: Allowed())"], &LEAN);
     let torn = shop.build("with steps", "fig13-wave", &allowed)?;
-    for (name, made) in [("in one piece", &whole), ("with steps", &torn)] {
+    for (name, made) in [("in one piece", &unbroken), ("with steps", &torn)] {
         let (front, back) = layer(made)?;
         found.case(name, made, &[front, back])?;
     }
-    within(found, &whole, 2.0, 2.0)?;
-    appears(found, &whole)?;
+    within(found, &unbroken, 2.0, 2.0)?;
+    appears(found, &unbroken)?;
     Ok(())
 }
 

@@ -63,9 +63,9 @@ pub fn number(case: &Case, name: &str) -> String {
     let Some((_, value)) = case.measured.iter().find(|m| m.0 == name) else {
         return "\u{2013}".to_owned();
     };
-    let whole = value.fract() == 0.0 && value.abs() < 1e9;
+    let integral = value.fract() == 0.0 && value.abs() < 1e9;
     match value.abs() {
-        _ if whole => format!("{value}"),
+        _ if integral => format!("{value}"),
         x if x >= 100.0 => format!("{value:.0}"),
         x if x >= 10.0 => format!("{value:.1}"),
         x if x >= 0.01 => format!("{value:.3}"),

@@ -37,13 +37,13 @@ fn times(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     let mut slowest = 0.0f64;
     for (name, scene, interactive, sets) in SCENES {
         // As their own figures build them.
-        let whole = match sets {
+        let at_last = match sets {
             [] => Vec::new(),
             _ => with(sets, &LEAN),
         };
         for (size, sets) in [
             ("interactive", [&[interactive], sets, &LEAN[..]].concat()),
-            ("final", whole),
+            ("final", at_last),
         ] {
             let case = format!("{name}, {size}");
             let made = shop.build(&case, scene, &sets)?;

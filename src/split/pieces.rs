@@ -87,14 +87,15 @@ impl Split {
     /// What was tried in turn: places of the pieces, and strokes of the numbers beside sockets.
     pub fn ladders(&self) -> Vec<Ladder> {
         let pieces = self.pieces.iter();
-        let places = pieces.map(|p| Ladder::new("place of a piece", Some(&p.name), p.rung, PLACES));
+        let places =
+            pieces.map(|p| Ladder::new("position on the bed", Some(&p.name), p.rung, PLACES));
         // Without a base there are no plates for numbers to stand on.
         let plates = self.pieces.iter().any(|p| p.is_plate);
         let sockets = self.sockets.iter().filter(|_| plates);
         let strokes = sockets.map(|s| {
             let rung = s.label.map_or(STROKE_NOZZLES.len(), |l| l.rung);
             let socket = format!("socket {}", s.number);
-            let name = "stroke of a number, none at last";
+            let name = "stroke of a number on a plate, none at last";
             Ladder::new(name, Some(&socket), rung, STROKE_NOZZLES.len() + 1)
         });
         places.chain(strokes).collect()

@@ -8,7 +8,7 @@ pub fn note(found: &Ladder) -> Option<String> {
         return None;
     }
     let place = found.place.as_deref();
-    let place = place.map_or_else(String::new, |p| format!(" of {p}"));
+    let place = place.map_or_else(String::new, |p| format!(", {p}"));
     Some(format!(
         "{}{place}: way {} of {} held, those before it did not",
         found.name,

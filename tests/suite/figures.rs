@@ -291,7 +291,7 @@ fn pages_show_every_figure_and_only_pictures_that_exist() {
 #[test]
 fn a_report_that_was_written_reads_back() {
     let mut report = report(10.0, 3);
-    report.ladders = vec![Ladder::new("place of a piece", Some("pillar-1"), 2, 5)];
+    report.ladders = vec![Ladder::new("position on the bed", Some("pillar-1"), 2, 5)];
     report.print = vec![PrintReport::default()];
     let back = Report::read(report.json().as_bytes()).expect("a report");
     assert_eq!(back, report);

@@ -1,21 +1,25 @@
 //! The report as a page: whole in itself, well formed, true to the figures, safe against names.
 
 use crate::scene::CUBE;
-use crate::shapes::ORANGE;
+use crate::shapes::{ORANGE, boxes};
 use glam::DVec3;
+use pillarforest::carve::{Forest, Repairs};
 use pillarforest::certify::camouflage::{Camouflage, CurvePoint};
 use pillarforest::certify::conflicts::{Disturbance, Trouble};
-use pillarforest::certify::coverage::{Cause, Gap};
+use pillarforest::certify::coverage::{Cause, Coverage, Gap, ModelCoverage};
 use pillarforest::certify::tolerance::{Confirmed, Movement, Rift, Tolerance, Way, WorstCut};
 use pillarforest::compile::{Build, build};
 use pillarforest::contest::Contest;
 use pillarforest::diag::Diagnostic;
+use pillarforest::ladder::{Ladder, short};
+use pillarforest::mesh::Solid;
 use pillarforest::render::ViewPictures;
 use pillarforest::report::html::{Exhibits, ViewExhibit, print_sheet};
 use pillarforest::report::{
     CertificateReport, ModelShare, PrintReport, Proof, Report, SolidCheck, SolidReport, ViewReport,
 };
 use pillarforest::scene;
+use pillarforest::words;
 use serde_json::Value;
 
 const ODD: &str = "a \"fish\" & <more> 'of' it</script>";
@@ -491,4 +495,87 @@ fn the_print_sheet_has_a_line_for_each_check() {
     }
     assert_eq!(html.matches("<tr>").count(), 3);
     assert_eq!(print_sheet(&[]), "");
+}
+
+/// A forest of two boxes side by side, in which some cells were given up.
+fn apart() -> Forest {
+    let two = [
+        (DVec3::ZERO, DVec3::ONE),
+        (DVec3::splat(2.0), DVec3::splat(3.0)),
+    ];
+    let whole = Solid::new(boxes(&two)).expect("two boxes");
+    Forest {
+        bare: whole.clone(),
+        reliefs: vec![None],
+        given_up: vec![vec![1, 2, 3]],
+        standing: vec![whole.clone()],
+        repairs: Repairs {
+            filled: 7,
+            dropped_cells: 3,
+            braces: 1,
+            crumbs_mm3: 0.25,
+        },
+        whole,
+    }
+}
+
+#[test]
+fn checks_of_the_solid_are_counts_that_can_be_wrong_and_repairs_are_none() {
+    let solid = SolidReport::of_forest(&apart());
+    let found: Vec<(usize, usize, bool)> = (solid.checks.iter())
+        .map(|c| (c.found, c.limit, c.passed))
+        .collect();
+    // Defects, parts, cells given up.
+    assert_eq!(found, [(0, 0, true), (2, 1, false), (3, 0, false)]);
+    assert_eq!(solid.repairs.filled_corners, 7);
+    assert_eq!(solid.repairs.crumbs_mm3, 0.25);
+}
+
+#[test]
+fn a_ladder_is_told_with_a_note_unless_its_first_rung_held() {
+    let name = "position on the bed";
+    let all = [("a", 0), ("b", 2), ("c", 0)].map(|(p, k)| Ladder::new(name, Some(p), k, 5));
+    let kept = short(all.to_vec());
+    // All that held at once are one line without a place.
+    assert_eq!(
+        kept,
+        [
+            Ladder::new(name, None, 0, 5),
+            Ladder::new(name, Some("b"), 2, 5)
+        ]
+    );
+    let report = Report {
+        ladders: kept,
+        solid: Some(SolidReport::default()),
+        ..Report::default()
+    };
+    let told: Value = serde_json::from_str(&report.json()).expect("json");
+    assert_eq!(told["ladders"][1]["rung"], 2);
+    let page = report.html(&Exhibits::default());
+    assert_well_formed(&page);
+    assert!(page.contains("position on the bed, b: way 3 of 5 held"));
+    assert!(!page.contains("way 1 of 5"));
+}
+
+#[test]
+fn what_is_no_pillar_is_not_called_one() {
+    let coverage = Coverage {
+        models: vec![ModelCoverage {
+            name: "fish".into(),
+            solid_angle_sr: 1.0,
+            carried_sr: 0.5,
+        }],
+        gaps: vec![Gap {
+            cause: Cause::NoPillar,
+            ..certificate().gaps[0].clone()
+        }],
+        small_gaps: 0,
+        small_gaps_arcmin2: 0.0,
+    };
+    for carrier in ["pillar", "support"] {
+        let told = words::coverage::warnings("left", &coverage, carrier);
+        assert!(!told.is_empty());
+        let all = format!("{told:?}");
+        assert_eq!(all.contains("pillar stands"), carrier == "pillar", "{all}");
+    }
 }
