@@ -11,6 +11,7 @@ use pillarforest::certify::tolerance::{Confirmed, Movement, Rift, Tolerance, Way
 use pillarforest::compile::{Build, build};
 use pillarforest::contest::Contest;
 use pillarforest::diag::Diagnostic;
+use pillarforest::index::CellId;
 use pillarforest::ladder::{Ladder, short};
 use pillarforest::mesh::Solid;
 use pillarforest::render::ViewPictures;
@@ -507,7 +508,7 @@ fn apart() -> Forest {
     Forest {
         bare: whole.clone(),
         reliefs: vec![None],
-        given_up: vec![vec![1, 2, 3]],
+        given_up: vec![[1, 2, 3].map(CellId).to_vec()],
         standing: vec![whole.clone()],
         repairs: Repairs {
             filled: 7,
@@ -516,6 +517,7 @@ fn apart() -> Forest {
             crumbs_mm3: 0.25,
         },
         whole,
+        ladders: Vec::new(),
     }
 }
 
