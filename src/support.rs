@@ -27,6 +27,16 @@ pub enum Extent {
     Wall,
 }
 
+impl Extent {
+    /// Up to `back` millimetres behind a datum.
+    pub fn behind(datum: Datum, back: f64) -> Self {
+        match datum {
+            Datum::Plane => Self::Plane { back },
+            Datum::Surface => Self::Surface { back },
+        }
+    }
+}
+
 /// The room a relief may fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {

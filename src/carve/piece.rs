@@ -17,7 +17,7 @@ const FLOOR: f64 = 0.5;
 const SHEET_MM: f64 = 0.05;
 
 /// What one view makes of one support.
-pub struct Piece<'a> {
+pub struct ReliefOnSupport<'a> {
     image: &'a Image<'a>,
     relief: &'a Relief,
     support: SupportId,
@@ -32,7 +32,7 @@ pub struct ReliefSolid {
     pub dropped: Vec<CellId>,
 }
 
-impl<'a> Piece<'a> {
+impl<'a> ReliefOnSupport<'a> {
     /// `None` if the view has no relief there.
     pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: SupportId) -> Option<Self> {
         let cells = &sight.image.map.cells;

@@ -4,7 +4,7 @@ use super::boolean::{Boolean, BooleanError};
 use super::brace::braces;
 use super::forest::{CarveError, Repairs};
 use super::operand::Operand;
-use super::piece::Piece;
+use super::piece::ReliefOnSupport;
 use super::sound::{CRUMB_MM3, Sound, sound};
 use crate::index::{CellId, SupportId, ViewId};
 use crate::ladder::Ladder;
@@ -124,7 +124,7 @@ fn carve_at(
         place: support.name.clone(),
         source,
     };
-    let mut work = Work {
+    let mut work = SupportWork {
         support,
         bare: Boolean::new(&support.mesh).map_err(failed)?,
         blocks: Vec::new(),
@@ -149,7 +149,7 @@ struct OnSupport<'a> {
 }
 
 /// A support on its way to solids.
-struct Work<'a> {
+struct SupportWork<'a> {
     support: &'a Support,
     bare: Boolean,
     blocks: Vec<OnSupport<'a>>,
@@ -157,7 +157,7 @@ struct Work<'a> {
     repairs: Repairs,
 }
 
-impl<'a> Work<'a> {
+impl<'a> SupportWork<'a> {
     /// Adds what a view puts on support `s`, and carves out what stands before it.
     fn take(
         &mut self,
@@ -168,7 +168,7 @@ impl<'a> Work<'a> {
     ) -> Result<(), BooleanError> {
         let (slab, solid) = match operand {
             Operand::Relief { sight, relief } => {
-                let Some(piece) = Piece::new(sight, relief, s) else {
+                let Some(piece) = ReliefOnSupport::new(sight, relief, s) else {
                     return Ok(());
                 };
                 let made = piece.relief(lap, &mut self.repairs)?;

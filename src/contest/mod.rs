@@ -18,4 +18,4 @@ mod frustum;
 mod settle;
 
 pub use frustum::{CONTACT_MM, Frustum};
-pub use settle::{Contest, Contested, Refusal, Settlement, contested, settle};
+pub use settle::{Contest, Contested, Dispute, Settlement, contested, settle};

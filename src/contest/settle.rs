@@ -33,7 +33,7 @@ pub struct Contest {
 
 /// A conflict where contests are errors: the first view's, with what it meets.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
+pub struct Dispute {
     pub view: String,
     pub found: Contest,
 }
@@ -53,7 +53,7 @@ pub struct Settlement {
 ///
 /// # Errors
 /// With `Error`, one for each pair of views and supports in conflict.
-pub fn settle(sights: &[Sight], rule: Contested) -> Result<Settlement, Vec<Refusal>> {
+pub fn settle(sights: &[Sight], rule: Contested) -> Result<Settlement, Vec<Dispute>> {
     let mut settled = Settlement {
         contests: vec![Vec::new(); sights.len()],
         lost: vec![Vec::new(); sights.len()],
@@ -216,8 +216,8 @@ fn place(sights: &[Sight], claim: &Claim, cells: &[CellId]) -> [f64; 3] {
 }
 
 /// A conflict that nobody is to win.
-fn refusal(sights: &[Sight], claims: &[Claim], meeting: &Meeting) -> Refusal {
-    Refusal {
+fn refusal(sights: &[Sight], claims: &[Claim], meeting: &Meeting) -> Dispute {
+    Dispute {
         view: sights[claims[meeting.claims[0]].view].name().to_owned(),
         found: contest(sights, claims, meeting, 0, ""),
     }

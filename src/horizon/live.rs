@@ -45,7 +45,7 @@ struct Sweep {
 
 /// A shadow as it lies on a span: obstacle and bearings.
 #[derive(Clone, Copy)]
-struct Image {
+struct ShadowImage {
     index: usize,
     from: f64,
     to: f64,
@@ -230,7 +230,7 @@ impl Sweep {
         let borders = self.tangents[within].iter().copied();
         let mut images = images_over(viewpoint, shadows, self.ends, [lo, hi]);
         images.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
-        let (mut coming, mut here) = (images.into_iter().peekable(), Vec::<Image>::new());
+        let (mut coming, mut here) = (images.into_iter().peekable(), Vec::<ShadowImage>::new());
         let mut fresh: Vec<Run> = Vec::with_capacity(borders.len() + 1);
         let mut from = lo;
         for to in borders.chain([hi]) {
@@ -252,7 +252,7 @@ impl Sweep {
 /// The obstacle that a bearing meets first; the earlier one of equals.
 fn nearest(
     bearing: f64,
-    images: &[Image],
+    images: &[ShadowImage],
     viewpoint: &Viewpoint,
     obstacles: &[Option<Obstacle>],
 ) -> Option<usize> {
@@ -286,14 +286,14 @@ fn images_over(
     shadows: &[Option<Shadow>],
     ends: [f64; 2],
     [lo, hi]: [f64; 2],
-) -> Vec<Image> {
+) -> Vec<ShadowImage> {
     let mut list = Vec::new();
     for (index, shadow) in shadows.iter().enumerate() {
         let Some(shadow) = shadow else {
             continue;
         };
         let images = images(viewpoint, shadow, ends).filter(|[from, to]| *from < hi && *to > lo);
-        list.extend(images.map(|[from, to]| Image { index, from, to }));
+        list.extend(images.map(|[from, to]| ShadowImage { index, from, to }));
     }
     list
 }

@@ -10,7 +10,7 @@ use super::optimised::Optimised;
 use crate::carve::Operand;
 use crate::certify::layer::{bound_violation_mm, order_inversions};
 use crate::diagram::section::{Section, section};
-use crate::mimic::{Depths, Energy, Keeping, Orders, SolveError, orders};
+use crate::mimic::{Depths, Energy, Keeping, Orders, SolveError, depths, orders};
 use crate::relief::{Relief, relief};
 use crate::sight::Sight;
 use crate::surface::{Surface, surface};
@@ -19,13 +19,13 @@ use crate::surface::{Surface, surface};
 ///
 /// # Errors
 /// As [`depths`](crate::mimic::depths).
-pub fn depths(energy: Energy, sight: &Sight) -> Result<Depths, SolveError> {
+pub fn height_field_depths(energy: Energy, sight: &Sight) -> Result<Depths, SolveError> {
     let orders = if energy.ordering() {
         orders(sight)
     } else {
         Orders::default()
     };
-    crate::mimic::depths(energy, sight, &Keeping::seen(orders))
+    depths(energy, sight, &Keeping::seen(orders))
 }
 
 /// A view's surface after optimisation.
@@ -41,7 +41,7 @@ impl<'a> HeightField<'a> {
     /// # Errors
     /// As [`depths`].
     pub fn new(energy: Energy, sight: &'a Sight<'a>) -> Result<Self, SolveError> {
-        let depths = depths(energy, sight)?;
+        let depths = height_field_depths(energy, sight)?;
         let crossed = || crossings(&sight.image, &moved(&sight.image, &depths), &depths);
         Ok(Self {
             relief: relief(sight, &depths),
@@ -85,7 +85,6 @@ impl Optimised for HeightField<'_> {
     }
 
     fn section(&self) -> Section {
-        let model = &self.sight.image.target.mesh;
-        section(self.sight, &self.depths, &self.relief, (model, false))
+        section(self.sight, &self.depths, &self.relief)
     }
 }

@@ -25,7 +25,7 @@ pub enum Bounded {
 ///
 /// # Errors
 /// If its models lie before several supports, or before several parts of one.
-pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, Split> {
+pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, MustBeCut> {
     let Sight { image, groups, .. } = &sight;
     let Some(support) = one_surface(&groups.groups)? else {
         return Ok(sight);
@@ -75,7 +75,7 @@ pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, Split> {
 
 /// Why a mesh cannot stay whole: it would have to be cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Split {
+pub enum MustBeCut {
     /// Its models lie before several supports.
     Supports([SupportId; 2]),
     /// Its models lie before several parts of one.
@@ -83,15 +83,15 @@ pub enum Split {
 }
 
 /// The support that carries all groups, on one part of it; `None` if there are no groups.
-fn one_surface(groups: &[Group]) -> Result<Option<SupportId>, Split> {
+fn one_surface(groups: &[Group]) -> Result<Option<SupportId>, MustBeCut> {
     let Some(first) = groups.first() else {
         return Ok(None);
     };
     if let Some(other) = groups.iter().find(|g| g.support != first.support) {
-        return Err(Split::Supports([first.support, other.support]));
+        return Err(MustBeCut::Supports([first.support, other.support]));
     }
     if groups.iter().any(|g| g.part != first.part) {
-        return Err(Split::Parts(first.support));
+        return Err(MustBeCut::Parts(first.support));
     }
     Ok(Some(first.support))
 }

@@ -1,7 +1,7 @@
 //! Which kind of relief a scene wants, and what becomes of a view under it.
 
 use super::height_field::HeightField;
-use super::hold::{Bounded, Split, held};
+use super::hold::{Bounded, MustBeCut, held};
 use super::optimised::Optimised;
 use super::torn::TornSurface;
 use super::whole::WholeMesh;
@@ -42,7 +42,7 @@ impl ReliefKind {
     ///
     /// # Errors
     /// If its mesh is to stay whole, but would have to be cut.
-    pub fn held<'a>(&self, sight: Sight<'a>) -> Result<Sight<'a>, Split> {
+    pub fn held<'a>(&self, sight: Sight<'a>) -> Result<Sight<'a>, MustBeCut> {
         match self {
             Self::HeightField(_) | Self::Torn(..) => Ok(sight),
             Self::Whole(_, bounded) => held(sight, *bounded),

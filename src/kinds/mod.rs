@@ -12,8 +12,8 @@ mod torn;
 mod whole;
 
 pub use crossings::{Crossings, crossings, moved};
-pub use height_field::{HeightField, depths};
-pub use hold::{Bounded, Split};
+pub use height_field::{HeightField, height_field_depths};
+pub use hold::{Bounded, MustBeCut};
 pub use kind::ReliefKind;
 pub use optimised::Optimised;
 pub use torn::TornSurface;

@@ -6,7 +6,7 @@
 use super::optimised::Optimised;
 use crate::carve::Operand;
 use crate::certify::layer::{bound_violation_mm, order_inversions};
-use crate::diagram::section::{Section, section};
+use crate::diagram::section::{Section, torn_section};
 use crate::mimic::{Depths, NormalOptions, SolveError};
 use crate::relief::{Relief, relief};
 use crate::sight::Sight;
@@ -71,8 +71,6 @@ impl Optimised for TornSurface<'_> {
     }
 
     fn section(&self) -> Section {
-        let model = &self.sight.image.target.mesh;
-        let Torn { sight, depths, .. } = &self.torn;
-        section(sight, depths, &self.relief, (model, true))
+        torn_section(&self.torn, &self.relief, &self.sight.image.target.mesh)
     }
 }

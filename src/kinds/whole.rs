@@ -129,8 +129,7 @@ impl Optimised for WholeMesh<'_> {
     }
 
     fn section(&self) -> Section {
-        let model = &self.sight.image.target.mesh;
-        section(self.sight, &self.depths, &self.relief, (model, false))
+        section(self.sight, &self.depths, &self.relief)
     }
 }
 

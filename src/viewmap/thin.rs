@@ -12,7 +12,7 @@ use glam::DVec2;
 
 /// Gives every cell a height of at least `height` (image units) where the triangulation allows it.
 pub fn merge_thin(map: &mut ViewMap, height: f64) {
-    let mut work = Work::new(map, height);
+    let mut work = MergeWork::new(map, height);
     work.run();
     let (points, cells) = work.finish();
     map.neighbours = neighbours(&cells);
@@ -23,7 +23,7 @@ pub fn merge_thin(map: &mut ViewMap, height: f64) {
 /// Sides up to this many heights are collapsed where neither of the gentler ways is open.
 const LAST_RESORT: f64 = 20.0;
 
-struct Work {
+struct MergeWork {
     height: f64,
     points: Vec<DVec2>,
     cells: Vec<Option<Cell>>,
@@ -34,7 +34,7 @@ struct Work {
     queue: std::collections::VecDeque<CellId>,
 }
 
-impl Work {
+impl MergeWork {
     fn new(map: &ViewMap, height: f64) -> Self {
         let mut around = vec![Vec::new(); map.points.len()];
         for (c, cell) in map.all() {

@@ -1,10 +1,10 @@
 //! Contests that nobody may win, and views that lose too much.
 
-use crate::contest::{Contest, Refusal};
+use crate::contest::{Contest, Dispute};
 use crate::diag::Diagnostic;
 
 /// A conflict where contests are errors.
-pub fn refused(refusal: &Refusal) -> Diagnostic {
+pub fn refused(refusal: &Dispute) -> Diagnostic {
     let view = &refusal.view;
     let Contest {
         with_view,

@@ -3,7 +3,7 @@
 use crate::diag::Diagnostic;
 use crate::groups::ThinSupport;
 use crate::index::SupportId;
-use crate::kinds::Split;
+use crate::kinds::MustBeCut;
 use crate::mimic::{RowKind, SolveError};
 use crate::sight::{Sight, Unseen};
 use crate::support::Support;
@@ -22,7 +22,8 @@ pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnosti
     }
 }
 
-fn too_thin(view: &str, supports: &[Support], found: &ThinSupport) -> Diagnostic {
+/// A support that a layer leaves too thin.
+pub fn too_thin(view: &str, supports: &[Support], found: &ThinSupport) -> Diagnostic {
     let support = &supports[found.support];
     let (back, core) = support.layer.map_or((0.0, 0.0), |l| (l.back(), l.core));
     let ThinSupport { behind_mm, .. } = found;
@@ -38,16 +39,16 @@ fn too_thin(view: &str, supports: &[Support], found: &ThinSupport) -> Diagnostic
 }
 
 /// Why a mesh cannot stay whole.
-pub fn split(view: &str, supports: &[Support], found: Split) -> Diagnostic {
+pub fn split(view: &str, supports: &[Support], found: MustBeCut) -> Diagnostic {
     let name = |s: SupportId| &supports[s].name;
     match found {
-        Split::Supports([one, other]) => Diagnostic::error(format!(
+        MustBeCut::Supports([one, other]) => Diagnostic::error(format!(
             "view \"{view}\": its models lie before {} and {}, but a whole mesh has one support",
             name(one),
             name(other)
         ))
         .help("one support behind all of them, or `relief: HeightField`, which cuts the surface"),
-        Split::Parts(support) => Diagnostic::error(format!(
+        MustBeCut::Parts(support) => Diagnostic::error(format!(
             "view \"{view}\": {} has several parts behind its models, but a whole mesh is not cut at their edges",
             name(support)
         ))

@@ -430,7 +430,7 @@ struct Built {
 impl Built {
     fn new(sights: Vec<Sight<'static>>) -> Self {
         let of_sight = |s: &Sight| {
-            let depths = kinds::depths(defaults::ENERGY, s).expect("depths");
+            let depths = kinds::height_field_depths(defaults::ENERGY, s).expect("depths");
             relief(s, &depths)
         };
         let reliefs: Vec<Relief> = sights.iter().map(of_sight).collect();

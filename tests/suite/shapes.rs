@@ -287,7 +287,7 @@ pub fn sighted(view: View, field: &'static SupportField<'static>) -> Sight<'stat
 
 /// What the stages from a sight to the relief make of it, the surface in one piece.
 pub fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
-    let depths = kinds::depths(energy, &sight).expect("depths");
+    let depths = kinds::height_field_depths(energy, &sight).expect("depths");
     Outcome {
         relief: relief(&sight, &depths),
         sight,

@@ -9,6 +9,7 @@ use crate::mesh::TriMesh;
 use crate::mimic::Depths;
 use crate::relief::Relief;
 use crate::sight::Sight;
+use crate::steps::Torn;
 use crate::support::SupportKind;
 use crate::viewmap::ViewMap;
 use glam::DVec2;
@@ -19,13 +20,21 @@ const LINES: usize = 48;
 /// A group counts as cut if its cut is at least this share of the width of all that is seen: narrower ones could not be drawn.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Cuts a view open. `torn` says whether its surface may be; `model` is the mesh that it was before.
-pub fn section(
-    sight: &Sight,
-    depths: &Depths,
-    relief: &Relief,
-    (model, torn): (&TriMesh, bool),
-) -> Section {
+/// Cuts a view open whose surface is in one piece.
+pub fn section(sight: &Sight, depths: &Depths, relief: &Relief) -> Section {
+    let model = &sight.image.target.mesh;
+    cut_open(sight, depths, relief, model)
+}
+
+/// Cuts a view open whose surface was torn; `model` is the mesh that it was before.
+pub fn torn_section(torn: &Torn, relief: &Relief, model: &TriMesh) -> Section {
+    Section {
+        torn: true,
+        ..cut_open(&torn.sight, &torn.depths, relief, model)
+    }
+}
+
+fn cut_open(sight: &Sight, depths: &Depths, relief: &Relief, model: &TriMesh) -> Section {
     let Sight { image, groups, .. } = sight;
     let (map, field) = (&image.map, image.field);
     let cut = chosen(sight);
@@ -68,7 +77,7 @@ pub fn section(
         stretches: found.into_iter().map(|f| f.1).collect(),
         groups: cut_groups,
         of: groups.groups.len(),
-        torn,
+        torn: false,
     }
 }
 

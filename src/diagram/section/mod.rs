@@ -22,7 +22,7 @@ mod slice;
 mod values;
 mod window;
 
-pub use found::section;
+pub use found::{section, torn_section};
 pub use plane::SectionPlane;
 pub use sheet::groups_sheet;
 pub use slice::SlicedOutline;

@@ -136,8 +136,7 @@ pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Spa
     Layer {
         extent: match datum {
             Datum::Surface if through => Extent::Wall,
-            Datum::Surface => Extent::Surface { back },
-            Datum::Plane => Extent::Plane { back },
+            _ => Extent::behind(datum, back),
         },
         front: wish.front.unwrap_or(defaults::ON_BODIES.front),
         core: wish.core.unwrap_or(defaults::ON_BODIES.core),
@@ -191,10 +190,7 @@ pub fn settled(
         );
     }
     Layer {
-        extent: match datum {
-            Datum::Plane => Extent::Plane { back },
-            Datum::Surface => Extent::Surface { back },
-        },
+        extent: Extent::behind(datum, back),
         front,
         core,
         hull: wish.hull.unwrap_or(defaults::LAYER.hull),

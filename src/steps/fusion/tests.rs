@@ -12,7 +12,7 @@ const BACK: f64 = 150.0;
 const THICK: f64 = 3.0;
 
 /// A strip of squares of two triangles each, in waves that the layer does not hold.
-struct Sheet {
+struct TriangleSheet {
     columns: usize,
     rows: usize,
     side: f64,
@@ -24,7 +24,7 @@ struct Sheet {
     highest: f64,
 }
 
-impl Sheet {
+impl TriangleSheet {
     fn random(lcg: &mut Lcg) -> Self {
         let mut within = |lo: f64, hi: f64| lo + (hi - lo) * lcg.share();
         let wave = |within: &mut dyn FnMut(f64, f64) -> f64| {
@@ -179,7 +179,7 @@ fn prices(length: f64, ordered: bool) -> Prices {
     }
 }
 
-fn start(sheet: &Sheet, patches: &Patches) -> PatchDepths {
+fn start(sheet: &TriangleSheet, patches: &Patches) -> PatchDepths {
     pressed(&patches.patches, |p| {
         sheet.corners(p.face.at()).map(|c| c.z)
     })
@@ -243,7 +243,7 @@ fn optimum(f: &Functional, labels: &[Vec<[f64; 3]>]) -> f64 {
 fn the_optimum_by_tables_is_that_of_all_choices() {
     let mut lcg = Lcg(7);
     for _ in 0..3 {
-        let mut sheet = Sheet::random(&mut lcg);
+        let mut sheet = TriangleSheet::random(&mut lcg);
         (sheet.columns, sheet.rows) = (1, 2);
         let patches = sheet.patches();
         let f = Functional::new(&patches, prices(10.0, true), 0..4);
@@ -271,7 +271,7 @@ fn compared(contours: bool, limited: bool) -> (f64, f64, usize) {
     let mut lcg = Lcg(3);
     let (mut found, mut least, mut torn) = (0.0, 0.0, 0);
     for n in 0..150 {
-        let mut sheet = Sheet::random(&mut lcg);
+        let mut sheet = TriangleSheet::random(&mut lcg);
         let price = 3.0 * 100f64.powf(lcg.share());
         let contour = sheet
             .jump
