@@ -76,7 +76,7 @@ fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
             lambda0,
             lambda_min: least * lambda0,
             lambda_max: (most * lambda0).min(UNBOUNDED),
-            group: bound.map_or(-1, |b| b.group.0 as i32),
+            group: bound.map_or(-1, |b| b.group.0.cast_signed()),
             mu: bound.map_or(1.0, |b| depths.mu[b.group]),
         };
         (view.eye + s * (point - view.eye), reach)

@@ -22,7 +22,7 @@ impl Boolean {
     pub fn new(mesh: &TriMesh) -> Result<Self, BooleanError> {
         Self::checked(Manifold::from_mesh_gl64(&MeshGL64 {
             num_prop: 3,
-            vert_properties: mesh.vertices.iter().flat_map(|v| v.to_array()).collect(),
+            vert_properties: mesh.vertices.iter().flat_map(DVec3::to_array).collect(),
             tri_verts: mesh.faces.iter().flatten().map(|v| u64::from(*v)).collect(),
             ..MeshGL64::default()
         }))

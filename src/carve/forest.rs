@@ -70,7 +70,7 @@ impl CarveError {
 fn list(defects: &[Defect]) -> String {
     defects
         .iter()
-        .map(|d| d.to_string())
+        .map(ToString::to_string)
         .collect::<Vec<_>>()
         .join("; ")
 }

@@ -90,7 +90,7 @@ pub fn carve_support(
     views: &[Operand],
     first: usize,
 ) -> Result<Carved, CarveError> {
-    let has_widths = views.iter().any(|v| v.has_widths());
+    let has_widths = views.iter().any(Operand::has_widths);
     let past = if has_widths { WIDTHS.len() } else { first + 1 };
     let mut last = None;
     for widths in first..past {

@@ -86,7 +86,7 @@ pub fn camouflage(view: &View, forest: &TriMesh, forest_bvh: &Bvh, floor: f64) -
         .bounds()
         .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0);
     let rings = rings(view.eye, middle, floor);
-    let eyes: Vec<DVec3> = rings.iter().flat_map(|r| r.eyes()).collect();
+    let eyes: Vec<DVec3> = rings.iter().flat_map(Ring::eyes).collect();
     let seen: Vec<Resemblance> = eyes
         .par_iter()
         .map(|eye| pair.likeness(*eye, middle))

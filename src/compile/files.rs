@@ -127,8 +127,8 @@ fn surface_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<Outpu
 
 /// Sections of every view as SVG and PNG, if they are wanted.
 pub fn section_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
-    let views = scene.views.iter().zip(shapes);
-    let sheet = |(view, shape): (&View, &Box<dyn Optimised + '_>)| {
+    let views = scene.views.iter().zip(shapes.iter().map(AsRef::as_ref));
+    let sheet = |(view, shape): (&View, &dyn Optimised)| {
         let sheet = groups_sheet(&view.name, &shape.section());
         let path = |extension| format!("groups-{}.{extension}", view.name);
         [

@@ -20,7 +20,7 @@ pub struct Pictures {
 /// The pictures of every view.
 pub fn drawn(built: &Built) -> Vec<Pictures> {
     let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
-    let of_view = |(v, shape): (&View, &Box<dyn Optimised + '_>)| {
+    let of_view = |(v, shape): (&View, &dyn Optimised)| {
         let steps = shape.steps().map(|(lines, all)| (lines, *all));
         let (likeness, view) = view_pictures(v, mesh, bvh, None, steps, output.picture_size);
         Pictures {
@@ -33,7 +33,7 @@ pub fn drawn(built: &Built) -> Vec<Pictures> {
         .scene
         .views
         .iter()
-        .zip(&built.shapes)
+        .zip(built.shapes.iter().map(AsRef::as_ref))
         .map(of_view)
         .collect()
 }

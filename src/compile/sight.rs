@@ -58,8 +58,8 @@ pub fn optimise<'a>(
 
 /// Warnings of iterations that did not converge.
 pub fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) -> Vec<Diagnostic> {
-    let views = sights.iter().zip(shapes);
-    let warning = |(sight, shape): (&Sight, &Box<dyn Optimised + '_>)| {
+    let views = sights.iter().zip(shapes.iter().map(AsRef::as_ref));
+    let warning = |(sight, shape): (&Sight, &dyn Optimised)| {
         words::iterated::unsettled(sight.name(), shape.depths().iterated.as_ref()?)
     };
     views.filter_map(warning).collect()

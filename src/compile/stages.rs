@@ -68,11 +68,16 @@ fn solids(
 ) -> Result<Forest, Vec<Diagnostic>> {
     let operands: Vec<Operand> = shapes.iter().map(|s| s.operand()).collect();
     carve(field, &operands).map_err(|e| {
-        let crossing = |(shape, operand): (&Box<dyn Optimised + '_>, &Operand)| match operand {
+        let crossing = |(shape, operand): (&dyn Optimised, &Operand)| match operand {
             Operand::Mesh { .. } => shape.crossings().map_or(0, |c| c.self_intersections),
             Operand::Relief { .. } => 0,
         };
-        let pairs = shapes.iter().zip(&operands).map(crossing).sum();
+        let pairs = shapes
+            .iter()
+            .map(AsRef::as_ref)
+            .zip(&operands)
+            .map(crossing)
+            .sum();
         vec![words::solids::unsound(&e, pairs)]
     })
 }

@@ -29,6 +29,9 @@ impl Drawing {
 }
 
 /// A white picture; sides are clamped to 1..=8192.
+///
+/// # Panics
+/// Never: such sides fit.
 pub fn blank(width: u32, height: u32) -> Pixmap {
     let mut pixmap = Pixmap::new(width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE))
         .expect("sides between 1 and 8192");
@@ -51,15 +54,21 @@ pub fn put_square(
     }
 }
 
-/// The square with this top left corner, which lies within the picture.
+/// The square with this top left corner.
+///
+/// # Panics
+/// If it does not lie within the picture.
 pub fn square(pixmap: &Pixmap, corner: (usize, usize), side: usize) -> Pixmap {
-    let [x, y] = [corner.0, corner.1].map(|c| c as i32);
+    let [x, y] = [corner.0, corner.1].map(|c| i32::try_from(c).unwrap_or(i32::MAX));
     let rect = IntRect::from_xywh(x, y, side as u32, side as u32);
     rect.and_then(|r| pixmap.clone_rect(r))
         .expect("a square within the picture")
 }
 
 /// The bytes of a PNG file.
+///
+/// # Panics
+/// Never: memory takes all that is written.
 pub fn encode(pixmap: &Pixmap) -> Vec<u8> {
     pixmap.encode_png().expect("writing a PNG to memory")
 }

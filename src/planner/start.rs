@@ -207,7 +207,7 @@ fn next(
                     return Ok((pillar, shadow));
                 }
                 Some(fault) if best.is_none_or(|b| misfit(&fault) < misfit(&b)) => {
-                    best = Some(fault)
+                    best = Some(fault);
                 }
                 Some(_) => {}
             }

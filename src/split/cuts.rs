@@ -180,7 +180,7 @@ impl Baseplate<'_> {
             side(&cuts.x, cell.0, lo.x, hi.x),
             side(&cuts.y, cell.1, lo.y, hi.y),
         );
-        let ring = vec![self.outline.iter().map(|p| p.to_array()).collect()];
+        let ring = vec![self.outline.iter().map(DVec2::to_array).collect()];
         let base = Boolean::upright(&ring, -self.thickness, 0.0)?;
         let part = Boolean::cuboid(
             DVec3::new(x.0, y.0, -self.thickness - OUT_MM),

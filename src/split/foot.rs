@@ -70,7 +70,7 @@ impl Foot {
     }
 
     fn ring(&self) -> Rings {
-        vec![self.profile.iter().map(|p| p.to_array()).collect()]
+        vec![self.profile.iter().map(DVec2::to_array).collect()]
     }
 
     /// The pillar's outline widened by `by` (or narrowed), millimetres.
@@ -79,6 +79,9 @@ impl Foot {
     }
 
     /// A carved pillar with what lies below the plate's top replaced by the peg.
+    ///
+    /// # Errors
+    /// If the boolean library refuses an operand.
     pub fn pegged(&self, carved: &Boolean) -> Result<Boolean, BooleanError> {
         let sunk = self.sunk / 2.0;
         let stays = Boolean::upright(&self.outline(-SLIM_MM), -sunk, 1.0)?;
@@ -96,6 +99,9 @@ impl Foot {
     }
 
     /// What is taken out of a plate.
+    ///
+    /// # Errors
+    /// If the boolean library refuses an operand.
     pub fn socket(&self, clearance: f64) -> Result<Boolean, BooleanError> {
         Boolean::upright(&self.outline(clearance), -self.depth, 1.0)?
             .minus(&self.beyond_key(clearance)?)

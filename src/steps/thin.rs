@@ -123,7 +123,8 @@ impl Raster {
     fn pixels(&self) -> impl Iterator<Item = (IVec2, PatchId)> {
         let width = self.size.x;
         let pixel = move |(k, p): (usize, &Option<PatchId>)| {
-            Some((IVec2::new(k as i32 % width, k as i32 / width), (*p)?))
+            let k = i32::try_from(k).expect("no more than MOST_PIXELS");
+            Some((IVec2::new(k % width, k / width), (*p)?))
         };
         self.patch.iter().enumerate().filter_map(pixel)
     }

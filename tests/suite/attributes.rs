@@ -101,7 +101,11 @@ fn ply(encoding: &str, corner_uvs: bool) -> Vec<u8> {
         uv.iter()
             .for_each(|c| bytes.extend(swap(c.to_le_bytes().to_vec())));
         bytes.extend(swap((k as f64 / 3.0).to_le_bytes().to_vec()));
-        bytes.extend(swap((7 - k as i32).to_le_bytes().to_vec()));
+        bytes.extend(swap(
+            (7 - i32::try_from(k).expect("a few"))
+                .to_le_bytes()
+                .to_vec(),
+        ));
     }
     for (f, face) in faces.iter().enumerate() {
         if encoding == "ascii" {

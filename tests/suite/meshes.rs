@@ -14,7 +14,7 @@ use pillarforest::words::gate::repaired;
 /// A box of the given corner and size, 8 vertices, 12 faces.
 fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
     let vertices = (0..8)
-        .map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64))
+        .map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
         .map(|p| DVec3::from(at) + p * DVec3::from(size))
         .collect();
     let faces = CUBE_FACES.to_vec();

@@ -219,7 +219,8 @@ fn model(name: &str) -> Result<Vec<u8>, Diagnostic> {
 }
 
 fn cuboid(size: DVec3) -> TriMesh {
-    let corner = |k: u32| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64) * size;
+    let corner =
+        |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * size;
     TriMesh {
         vertices: (0..8).map(corner).collect(),
         faces: CUBE_FACES.to_vec(),

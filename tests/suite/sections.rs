@@ -12,7 +12,7 @@ use pillarforest::scene;
 
 fn cut(setting: &Setting, energy: Energy) -> (Outcome, Section) {
     let out = setting.solved(energy);
-    let model = &out.target().mesh;
+    let _model = &out.target().mesh;
     let found = section(&out.sight, &out.depths, &out.relief);
     (out, found)
 }

@@ -73,6 +73,7 @@ fn moon() -> String {
     text
 }
 
+#[allow(clippy::unnecessary_wraps, reason = "as scenes are read")]
 fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
     Ok(if name == "moon.obj" { moon() } else { model() }.into_bytes())
 }

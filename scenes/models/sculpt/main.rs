@@ -131,7 +131,7 @@ fn ply(mesh: &Mesh) -> Vec<u8> {
     for f in &mesh.faces {
         out.push(3);
         for c in f {
-            out.extend((*c as i32).to_le_bytes());
+            out.extend(c.cast_signed().to_le_bytes());
         }
     }
     out

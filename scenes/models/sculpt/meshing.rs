@@ -37,12 +37,12 @@ pub struct Mesh {
 /// What is to be meshed.
 pub struct Creature {
     /// The finished surface.
-    pub field: std::boxed::Box<Field>,
+    pub field: Box<Field>,
     /// A box around it, mm.
     pub low: DVec3,
     pub high: DVec3,
     /// Wanted edge length at a point of the surface, mm.
-    pub edge: std::boxed::Box<Field>,
+    pub edge: Box<Field>,
 }
 
 /// Meshes a creature; `pitch` is the spacing of the first grid in mm.

@@ -90,7 +90,7 @@ impl Witness<'_> {
         let mut longest = 0;
         let mut start = -RAYS;
         for run in hidden.chunk_by(|a, b| a == b) {
-            let end = start + run.len() as i32;
+            let end = start + i32::try_from(run.len()).unwrap_or(i32::MAX);
             if run[0] && start <= near && end >= -near {
                 longest = longest.max(run.len());
             }

@@ -320,7 +320,7 @@ fn curve(film: &mut Film, x: f64, values: &[f64]) {
             1.1,
             Some(Ink::new([0xD5, 0x5E, 0x00])),
             Some(Pen::new(PAPER, 0.3)),
-        )
+        );
     });
     film.svg.push_str("</g>\n");
 }

@@ -183,12 +183,12 @@ fn keys(drawing: &mut Drawing, story: &Story, y: f64) {
         drawing.rect(at - half, at + half, Some(fill), pen);
     };
     entry(drawing, "visible range", &|d, at| {
-        swatch(d, at, Ink::new(grey).fade(0.3), Some(fine))
+        swatch(d, at, Ink::new(grey).fade(0.3), Some(fine));
     });
     if story.planned.regions.iter().any(|r| !r.is_empty()) {
         let pen = Pen::new(deep(grey, 0.1), 0.3).dashed(1.1, 1.0);
         entry(drawing, "sight region of the start", &|d, at| {
-            swatch(d, at, Ink::new(grey).fade(0.1), Some(pen))
+            swatch(d, at, Ink::new(grey).fade(0.1), Some(pen));
         });
     }
     entry(drawing, "pillar, with its view's letter", &|d, at| {

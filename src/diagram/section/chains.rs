@@ -41,8 +41,8 @@ pub fn chains(section: &Section, value: impl Fn(&Stretch) -> DepthsOfGroup) -> V
 }
 
 /// The surface before it is cut.
-pub fn surface(s: &Stretch) -> DepthsOfGroup {
-    Some((None, s.surface))
+pub fn surface(s: &Stretch) -> (Option<usize>, [f64; 2]) {
+    (None, s.surface)
 }
 
 /// Rooms between the bounds of every group, scaled by `scale` of the group: polygons.

@@ -215,7 +215,7 @@ fn optimised(drawing: &mut Drawing, section: &Section, view: &Window) {
         let pen = Pen::new(RED, 0.2).dashed(0.5, 0.7);
         drawing.polyline(&view.places(&[a, b]), pen);
     }
-    for chain in chains(section, surface) {
+    for chain in chains(section, |s| Some(surface(s))) {
         drawing.polyline(&view.places(&chain.points), SURFACE);
     }
     let carried = |s: &Stretch| s.laid.map(|l| (Some(l.group), s.surface));
@@ -285,7 +285,7 @@ fn names(
     {
         let (i, k) = k;
         let (_, from, group) = labels[k];
-        let base = DVec2::new(at[i], view.top() - 6.5);
+        let base = DVec2::new(at[i], Window::top() - 6.5);
         let ink = deep(colour(group), 0.3);
         let leader = [view.place(from), ends[i], base + DVec2::new(0.0, 1.2)];
         drawing.polyline(&leader, Pen::new(ink.fade(0.7), 0.12));
@@ -298,7 +298,7 @@ fn names(
     if kept.len() < texts.len() {
         let note = format!("the widest {} of {}", kept.len(), texts.len());
         drawing.text(
-            DVec2::new(view.left, view.top() - 10.5),
+            DVec2::new(view.left, Window::top() - 10.5),
             &note,
             style(2.2, Typeface::Light, QUIET),
         );

@@ -39,7 +39,7 @@ impl Window {
         let drawn = [
             rooms(section, |_| 1.0),
             rooms(section, scaled),
-            chains(section, surface),
+            chains(section, |s| Some(surface(s))),
         ];
         points.extend(drawn.into_iter().flatten().flat_map(|c| c.points));
         let corners = |points: &[DVec2]| {
@@ -93,17 +93,17 @@ impl Window {
         self.scale * (self.hi.y - self.lo.y)
     }
 
-    pub fn top(&self) -> f64 {
+    pub fn top() -> f64 {
         HEAD + LABELS
     }
 
     pub fn bottom(&self) -> f64 {
-        self.top() + self.height()
+        Self::top() + self.height()
     }
 
     pub fn place(&self, p: DVec2) -> DVec2 {
         let at = self.scale * DVec2::new(p.x - self.lo.x, self.hi.y - p.y);
-        DVec2::new(self.left, self.top()) + at
+        DVec2::new(self.left, Self::top()) + at
     }
 
     pub fn places(&self, points: &[DVec2]) -> Vec<DVec2> {

@@ -20,7 +20,7 @@ fn figure(exact: f64, shown: &str) -> String {
 
 /// With so many decimals and a unit. What would read as zero and is none is told as being below the last place.
 pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
-    let least = 0.1_f64.powi(decimals as i32);
+    let least = last_place(decimals);
     let number = if exact > 0.0 && exact < least / 2.0 {
         format!("below {least:.decimals$}")
     } else {
@@ -39,9 +39,14 @@ pub fn measure_or(exact: Option<f64>, decimals: usize, unit: &str, none: &str) -
     exact.map_or_else(|| none.to_owned(), |x| measure(x, decimals, unit))
 }
 
+/// The least number above zero with so many decimals.
+fn last_place(decimals: usize) -> f64 {
+    0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX))
+}
+
 /// Without the sign of what rounds to zero.
 fn rounded(exact: f64, decimals: usize) -> String {
-    let nothing = exact.abs() < 0.1_f64.powi(decimals as i32) / 2.0;
+    let nothing = exact.abs() < last_place(decimals) / 2.0;
     format!("{:.decimals$}", if nothing { 0.0 } else { exact })
 }
 

@@ -166,7 +166,7 @@ raw! {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[allow(non_camel_case_types)] // as written in scenes
+#[allow(non_camel_case_types, reason = "as written in scenes")]
 pub enum RawUnit {
     mm,
     cm,
@@ -175,7 +175,7 @@ pub enum RawUnit {
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per model, short-lived
+#[allow(clippy::large_enum_variant, reason = "one per model, short-lived")]
 pub enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
@@ -183,7 +183,7 @@ pub enum RawPlace {
 
 /// Part of a model.
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per region, short-lived
+#[allow(clippy::large_enum_variant, reason = "one per region, short-lived")]
 pub enum RawVolume {
     Box(RawBox),
     Ball(RawBall),
@@ -192,21 +192,21 @@ pub enum RawVolume {
 
 /// The pillars of a scene: listed, to be found, or kept in a file of their own.
 #[derive(Debug)]
-#[allow(clippy::large_enum_variant)] // one per scene
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
 pub enum RawForest {
     List(Spanned<List<RawPillars>>),
     Choice(Spanned<RawForestChoice>),
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per scene
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
 pub enum RawForestChoice {
     Auto(RawAuto),
     File(String),
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per scene
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
 pub enum RawRegion {
     Disc(RawDiscRegion),
     Rectangle(RawRectangleRegion),
@@ -233,7 +233,7 @@ pub enum RawShape {
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per entry, short-lived
+#[allow(clippy::large_enum_variant, reason = "one per entry, short-lived")]
 pub enum RawPlaces {
     At(List<[f64; 2]>),
     Grid(RawGrid),
@@ -263,7 +263,7 @@ pub enum RawOutline {
 
 /// What carries reliefs and is no pillar.
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // a few per scene
+#[allow(clippy::large_enum_variant, reason = "a few per scene")]
 pub enum RawSupport {
     Plate(RawPlate),
     Strips(RawStrips),
@@ -274,14 +274,14 @@ pub enum RawSupport {
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per wave
+#[allow(clippy::large_enum_variant, reason = "one per wave")]
 pub enum RawHeights {
     Formula(String),
     Image(RawImage),
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per scene
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
 pub enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
@@ -308,7 +308,7 @@ pub enum RawCurvatureForm {
 }
 
 #[derive(Debug, Deserialize)]
-#[allow(clippy::large_enum_variant)] // one per scene
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
 pub enum RawSteps {
     Never,
     Allowed(RawStepOptions),

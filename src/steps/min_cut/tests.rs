@@ -176,7 +176,7 @@ fn a_grid_is_cut_as_by_the_largest_flow() {
     let at = |x: usize, y: usize| SIDE * y + x;
     for seed in 0..4 {
         let mut lcg = Lcg(seed);
-        let blob = |i: usize, k: usize| ((i / 5 + i / SIDE / 6) % 2 == k) as u64;
+        let blob = |i: usize, k: usize| u64::from((i / 5 + i / SIDE / 6) % 2 == k);
         let unary: Vec<[u64; 2]> = (0..SIDE * SIDE)
             .map(|i| [0, 1].map(|k| lcg.below(40) * (1 + blob(i, k))))
             .collect();
