@@ -59,7 +59,7 @@ impl<'a> WholeMesh<'a> {
         let depths = scaled_back(depths(energy, sight, &keeping)?);
         let mesh = moved(&sight.image, &depths);
         Ok(Self {
-            relief: seen(&sight.image, sight, &depths),
+            relief: seen(sight, &depths),
             crossings: crossings(&sight.image, &mesh, &depths),
             sight,
             depths,
@@ -79,8 +79,8 @@ fn scaled_back(depths: Depths) -> Depths {
 }
 
 /// What is seen of the mesh: nothing is clamped, because the mesh itself is built, and its bounds are looked at there.
-fn seen(image: &Image, sight: &Sight, depths: &Depths) -> Relief {
-    let Image { target, map, .. } = image;
+fn seen(sight: &Sight, depths: &Depths) -> Relief {
+    let Image { target, map, .. } = &sight.image;
     let of_cell = |(c, cell): (CellId, &Cell)| {
         let (group, face) = (sight.groups.of_cell[c]?, cell.face?);
         Some(cell.corners.map(|p| {
