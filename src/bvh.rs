@@ -4,6 +4,7 @@
 //! (Woop, Benthin & Wald 2013), so a ray through a shared edge or vertex hits one of the faces there. The f32 ray begins just before
 //! the mesh: from an eye hundreds of metres away it would pass boxes by.
 
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use glam::{DVec3, Vec3A};
 use obvhs::{BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder::build_bvh2, ray::Ray};
@@ -12,7 +13,7 @@ use std::time::Duration;
 /// Where a ray meets a face: `origin + t * direction`, `t > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    pub face: usize,
+    pub face: FaceId,
     pub t: f64,
 }
 
@@ -30,7 +31,9 @@ const WIDE: f64 = 1.01;
 
 impl Bvh {
     pub fn new(mesh: &TriMesh) -> Self {
-        let triangles: Vec<[DVec3; 3]> = (0..mesh.faces.len()).map(|f| mesh.corners(f)).collect();
+        let triangles: Vec<[DVec3; 3]> = FaceId::all(mesh.faces.len())
+            .map(|f| mesh.corners(f))
+            .collect();
         let (lo, hi) = mesh.bounds().unwrap_or_default();
         let pad = 1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length());
         let boxes: Vec<Aabb> = triangles.iter().map(|t| padded_box(t, pad)).collect();
@@ -69,7 +72,7 @@ impl Bvh {
         &self,
         origin: DVec3,
         direction: DVec3,
-        accept: impl Fn(usize) -> bool,
+        accept: impl Fn(FaceId) -> bool,
     ) -> Option<Hit> {
         if self.triangles.is_empty() {
             return None;
@@ -79,7 +82,7 @@ impl Bvh {
         let mut nearest = obvhs::ray::RayHit::none();
         let (ray, start) = self.near_ray(origin, direction);
         self.tree.ray_traverse(ray, &mut nearest, |_, slot| {
-            let face = self.tree.primitive_indices[slot] as usize;
+            let face = FaceId(self.tree.primitive_indices[slot]);
             let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else {
                 return f32::INFINITY;
             };
@@ -101,7 +104,7 @@ impl Bvh {
         let mut hits = Vec::new();
         self.tree
             .ray_traverse_anyhit(self.near_ray(origin, direction).0, |_, slot| {
-                let face = self.tree.primitive_indices[slot] as usize;
+                let face = FaceId(self.tree.primitive_indices[slot]);
                 hits.extend(woop.hit(&self.triangles[face]).map(|t| Hit { face, t }));
             });
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
@@ -121,7 +124,7 @@ impl Bvh {
         // Rounded up well past f32 error, as in `first_hit_where`.
         ray.tmax = ((t_max - start) * (1.0 + 1e-5)) as f32;
         let free = self.tree.ray_traverse_miss(ray, |_, slot| {
-            let face = self.tree.primitive_indices[slot] as usize;
+            let face = FaceId(self.tree.primitive_indices[slot]);
             let hit = woop.hit(&self.triangles[face]);
             // Any number below the ray's end counts as a hit, infinity never does.
             if hit.is_some_and(|t| t < t_max) {

@@ -64,6 +64,8 @@ indices! {
     VertexId
     /// A face of a mesh.
     FaceId
+    /// A part of a mesh whose faces hang together by edges.
+    ComponentId
     /// A face of the mesh of all supports together, as rays meet it.
     FacetId
     /// A point of a view map.

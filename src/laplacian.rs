@@ -1,5 +1,6 @@
 //! Cotangents and areas. Sign convention: weights are positive for acute angles, so `sum of w (x_i - x_j)^2 / 2` is the Dirichlet energy.
 
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 
 /// Share of the mean edge added to every edge length (intrinsic mollification, Sharp & Crane 2020): keeps cotangents of
@@ -17,7 +18,7 @@ pub struct FaceGeometry {
 
 impl FaceGeometry {
     pub fn new(mesh: &TriMesh) -> Self {
-        let lengths: Vec<[f64; 3]> = (0..mesh.faces.len())
+        let lengths: Vec<[f64; 3]> = FaceId::all(mesh.faces.len())
             .map(|f| {
                 let [a, b, c] = mesh.corners(f);
                 [b.distance(c), c.distance(a), a.distance(b)]
@@ -49,7 +50,7 @@ impl FaceGeometry {
                             / 4.0
                     }
                 };
-                areas[face[k] as usize] += share;
+                areas[face[k]] += share;
             }
         }
         areas

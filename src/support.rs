@@ -3,6 +3,7 @@
 //! A support is a closed solid with a name and, if it may carry reliefs, a depth layer. Everything downstream
 //! (visibility, groups, solids) asks only for its mesh and for its layer along a ray.
 
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 
@@ -157,7 +158,7 @@ pub struct Support {
 
 impl Support {
     /// The part of its surface that a face of its mesh belongs to.
-    pub fn part(&self, face: usize) -> u32 {
+    pub fn part(&self, face: FaceId) -> u32 {
         match &self.kind {
             SupportKind::Body { parts, .. } => parts[face],
             SupportKind::Pillar { .. } | SupportKind::Base { .. } => 0,
@@ -448,8 +449,8 @@ fn reach(along: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Distance of the farthest point that an eye may see of a closed mesh, millimetres.
 fn farthest(mesh: &TriMesh, eye: DVec3) -> f64 {
-    let seen = |f: &usize| mesh.area_vector(*f).dot(eye - mesh.corners(*f)[0]) > 0.0;
-    let corners = (0..mesh.faces.len())
+    let seen = |f: &FaceId| mesh.area_vector(*f).dot(eye - mesh.corners(*f)[0]) > 0.0;
+    let corners = FaceId::all(mesh.faces.len())
         .filter(seen)
         .flat_map(|f| mesh.corners(f));
     corners.map(|p| p.distance(eye)).fold(0.0, f64::max)

@@ -9,7 +9,7 @@
 //! Symbols: eye `o`; `lambda0 = |v - o|`, `lambda = s lambda0`; the relief on a support is `o + (p - o) / mu_g`.
 
 use crate::groups::Groups;
-use crate::index::GroupId;
+use crate::index::{FaceId, GroupId, VertexId};
 use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar};
 use crate::mimic::Depths;
 use crate::sight::Sight;
@@ -47,7 +47,7 @@ pub struct Surface {
     /// Index: vertex.
     pub reach: Vec<VertexReach>,
     /// The vertex of the input, counted from 0 through the files of all models. Index: vertex.
-    pub input_vertex: Vec<u32>,
+    pub input_vertex: Vec<VertexId>,
     /// What a reader of the file must know, one line each.
     pub notes: Vec<String>,
 }
@@ -66,7 +66,7 @@ fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
     let view = sight.image.view;
     let input = Input::new(view);
     let bounds = vertex_bounds(&sight.groups, depths, depths.s.len());
-    let at = |point: DVec3, solved: Option<usize>| {
+    let at = |point: DVec3, solved: Option<VertexId>| {
         let s = solved.map_or(1.0, |v| depths.s[v]);
         let bound = solved.and_then(|v| bounds[v]);
         let lambda0 = point.distance(view.eye);
@@ -88,7 +88,7 @@ fn assembled(sight: &Sight, depths: &Depths, torn: Option<&Torn>) -> Surface {
     let (vertices, reach) = input_vertex
         .iter()
         .zip(solved)
-        .map(|(i, solved)| at(input.points[*i as usize], solved))
+        .map(|(i, solved)| at(input.points[*i], solved))
         .unzip();
     Surface {
         mesh: TriMesh { vertices, faces },
@@ -128,16 +128,21 @@ fn vertex_bounds(groups: &Groups, depths: &Depths, count: usize) -> Vec<Option<V
 }
 
 /// Faces, attributes, and for every vertex the input's and the solved one.
-type Parts = (Vec<[u32; 3]>, Attributes, Vec<u32>, Vec<Option<usize>>);
+type Parts = (
+    Vec<[VertexId; 3]>,
+    Attributes,
+    Vec<VertexId>,
+    Vec<Option<VertexId>>,
+);
 
 /// The files of all models, in place, one after the other.
 struct Input<'a> {
     originals: Vec<Cow<'a, Original>>,
     points: Vec<DVec3>,
-    faces: Vec<[u32; 3]>,
+    faces: Vec<[VertexId; 3]>,
     attributes: Attributes,
     /// The target's vertex of every input vertex.
-    target: Vec<Option<usize>>,
+    target: Vec<Option<VertexId>>,
 }
 
 impl<'a> Input<'a> {
@@ -153,27 +158,27 @@ impl<'a> Input<'a> {
         let originals = input.originals.clone();
         for (model, original) in view.models.iter().zip(&originals) {
             let first = input.points.len() as u32;
-            // Turned like the model itself: inside out again.
             let mirrored = model.matrix.determinant() < 0.0;
-            let turned = |f: &[u32; 3]| if mirrored { [f[0], f[2], f[1]] } else { *f };
-            input.join_attributes(original, turned);
+            input.join_attributes(original, mirrored);
             for (point, vertex) in original.mesh.vertices.iter().zip(&original.vertex_of) {
-                let vertex = vertex.map(|v| v as usize);
-                input.points.push(match vertex {
+                input.points.push(match *vertex {
                     Some(v) => model.mesh.vertices[v],
                     None => model.matrix.transform_point3(*point),
                 });
-                input.target.push(vertex.map(|v| first_target + v));
+                input
+                    .target
+                    .push(vertex.map(|v| VertexId(first_target + v.0)));
             }
-            let faces = original.mesh.faces.iter().map(turned);
-            input.faces.extend(faces.map(|f| f.map(|v| v + first)));
-            first_target += model.mesh.vertices.len();
+            let faces = original.mesh.faces.iter().map(|f| turned(f, mirrored));
+            let moved = |v: VertexId| VertexId(v.0 + first);
+            input.faces.extend(faces.map(|f| f.map(moved)));
+            first_target += model.mesh.vertices.len() as u32;
         }
         input
     }
 
     /// Appends what a file says; what the models before it have and it lacks, and the other way round, is filled in.
-    fn join_attributes(&mut self, next: &Original, turned: impl Fn(&[u32; 3]) -> [u32; 3]) {
+    fn join_attributes(&mut self, next: &Original, mirrored: bool) {
         let (before, faces_before) = (self.points.len(), self.faces.len());
         let count = next.mesh.vertices.len();
         let own = &next.attributes;
@@ -206,7 +211,7 @@ impl<'a> Input<'a> {
         let moved = |uv: u32| if uv == NO_UV { NO_UV } else { uv + first };
         if let Some(own) = &own.uvs {
             uvs.points.extend_from_slice(&own.points);
-            let corners = own.corners.iter().map(turned);
+            let corners = own.corners.iter().map(|c| turned(c, mirrored));
             uvs.corners.extend(corners.map(|c| c.map(moved)));
         }
         uvs.corners
@@ -215,7 +220,7 @@ impl<'a> Input<'a> {
 
     /// The input as it is.
     fn in_one_piece(&self) -> Parts {
-        let vertices = (0..self.points.len() as u32).collect();
+        let vertices = VertexId::all(self.points.len()).collect();
         (
             self.faces.clone(),
             self.attributes.clone(),
@@ -229,35 +234,35 @@ impl<'a> Input<'a> {
     fn torn(&self, view: &View, torn: &Torn) -> Parts {
         let faces = &torn.sight.image.target.mesh.faces;
         let face_of = self.faces_of_target(view);
-        let mut any_input = vec![None; torn.vertices.iter().max().map_or(0, |v| *v as usize + 1)];
-        for (i, target) in self.target.iter().enumerate().rev() {
-            if let Some(slot) = target.and_then(|t| any_input.get_mut(t)) {
-                *slot = Some(i as u32);
+        let mut any_input = vec![None; torn.vertices.iter().max().map_or(0, |v| v.at() + 1)];
+        for (i, target) in VertexId::all(self.target.len()).zip(&self.target).rev() {
+            if let Some(slot) = target.and_then(|t| any_input.get_mut(t.at())) {
+                *slot = Some(i);
             }
         }
-        let mut input_vertex: Vec<Option<u32>> = vec![None; torn.vertices.len()];
+        let mut input_vertex: Vec<Option<VertexId>> = vec![None; torn.vertices.len()];
         let mut corners = Vec::with_capacity(faces.len());
         let own_uvs = self.attributes.uvs.as_ref();
         for (face, target_face) in faces.iter().zip(&torn.faces) {
-            let input_face = face_of[*target_face].map(|f| f as usize);
+            let input_face = face_of[*target_face];
             corners.push(face.map(|v| {
-                let target = Some(torn.vertices[v as usize] as usize);
-                let is_same = |i: &u32| self.target[*i as usize] == target;
+                let target = Some(torn.vertices[v]);
+                let is_same = |i: &VertexId| self.target[*i] == target;
                 let found = input_face.and_then(|f| {
                     let corner = self.faces[f].iter().position(is_same)?;
                     Some((f, corner))
                 });
                 let vertex = found.map(|(f, corner)| self.faces[f][corner]);
-                let slot = &mut input_vertex[v as usize];
+                let slot = &mut input_vertex[v];
                 *slot = slot.or(vertex);
-                let uv = |(f, corner): (usize, usize)| Some(own_uvs?.corners[f][corner]);
+                let uv = |(f, corner): (FaceId, usize)| Some(own_uvs?.corners[f][corner]);
                 found.and_then(uv).unwrap_or(NO_UV)
             }));
         }
-        let vertices: Vec<u32> = input_vertex
+        let vertices: Vec<VertexId> = input_vertex
             .iter()
             .zip(&torn.vertices)
-            .map(|(found, target)| found.or(any_input[*target as usize]).unwrap_or_default())
+            .map(|(found, target)| found.or(any_input[*target]).unwrap_or(VertexId(0)))
             .collect();
         let attributes = Attributes {
             colours: picked(&self.attributes.colours, &vertices),
@@ -275,21 +280,26 @@ impl<'a> Input<'a> {
                 })
                 .collect(),
         };
-        let solved = (0..vertices.len()).map(Some).collect();
+        let solved = VertexId::all(vertices.len()).map(Some).collect();
         (faces.clone(), attributes, vertices, solved)
     }
 
     /// The input's face of every face of the target.
-    fn faces_of_target(&self, view: &View) -> Vec<Option<u32>> {
+    fn faces_of_target(&self, view: &View) -> Vec<Option<FaceId>> {
         let mut all = Vec::new();
         let mut first = 0;
         for (model, original) in view.models.iter().zip(&self.originals) {
             let faces = original.faces_of(&model.mesh).into_iter();
-            all.extend(faces.map(|f| f.map(|f| f + first)));
+            all.extend(faces.map(|f| f.map(|f| FaceId(f.0 + first))));
             first += original.mesh.faces.len() as u32;
         }
         all
     }
+}
+
+/// The corners of a face, turned round where a model is mirrored: inside out again.
+fn turned<T: Copy>([a, b, c]: &[T; 3], mirrored: bool) -> [T; 3] {
+    if mirrored { [*a, *c, *b] } else { [*a, *b, *c] }
 }
 
 /// What a model's file has; a model that comes from none is its own.
@@ -299,18 +309,18 @@ fn original(model: &PlacedModel) -> Cow<'_, Original> {
         None => Cow::Owned(Original {
             mesh: model.mesh.clone(),
             attributes: Attributes::default(),
-            vertex_of: (0..model.mesh.vertices.len() as u32).map(Some).collect(),
+            vertex_of: VertexId::all(model.mesh.vertices.len()).map(Some).collect(),
             lowered_from: None,
         }),
     }
 }
 
 /// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[u32]) -> Vec<T> {
+fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
     if list.is_empty() {
         return Vec::new();
     }
-    vertices.iter().map(|v| list[*v as usize]).collect()
+    vertices.iter().map(|v| list[*v]).collect()
 }
 
 fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {

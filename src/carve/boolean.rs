@@ -23,7 +23,12 @@ impl Boolean {
         Self::checked(Manifold::from_mesh_gl64(&MeshGL64 {
             num_prop: 3,
             vert_properties: mesh.vertices.iter().flat_map(DVec3::to_array).collect(),
-            tri_verts: mesh.faces.iter().flatten().map(|v| u64::from(*v)).collect(),
+            tri_verts: mesh
+                .faces
+                .iter()
+                .flatten()
+                .map(|v| u64::from(v.0))
+                .collect(),
             ..MeshGL64::default()
         }))
     }
@@ -151,10 +156,8 @@ impl Boolean {
         let vertices = (0..mesh.num_vert())
             .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
             .collect();
-        let faces = (0..mesh.num_tri())
-            .map(|t| mesh.get_tri_verts(t).map(|v| v as u32))
-            .collect();
-        TriMesh { vertices, faces }
+        let faces = (0..mesh.num_tri()).map(|t| mesh.get_tri_verts(t).map(|v| v as u32));
+        TriMesh::new(vertices, faces)
     }
 
     fn checked(solid: Manifold) -> Result<Self, BooleanError> {

@@ -207,8 +207,8 @@ fn cells_in_way(sights: &[Sight], seen: &Claim, tree: &BoxTree, other: &Claim) -
             continue;
         };
         tree.overlapping(&query, |j| {
-            if seen.sight_of(sights, j as usize).meets(&volume) {
-                pairs.push([seen.cells[j as usize], *b]);
+            if seen.sight_of(sights, j.at()).meets(&volume) {
+                pairs.push([seen.cells[j.at()], *b]);
             }
             true
         });

@@ -59,7 +59,7 @@ fn normal_errors(image: &Image, relief: &Relief) -> NormalError {
         let [a, b, c] = [0, 1, 2].map(|k| map.plane.point(corners[k], depth[k]));
         let ray = a - map.plane.eye;
         let made = towards((b - a).cross(c - a), ray);
-        let wanted = towards(target.mesh.normal(face.at()), ray);
+        let wanted = towards(target.mesh.normal(face), ray);
         found.push((
             made.angle_between(wanted).to_degrees(),
             map.solid_angle(cell),

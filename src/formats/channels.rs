@@ -4,6 +4,7 @@
 
 use crate::diag::{Diagnostic, Place};
 use crate::formats::text::excerpt;
+use crate::index::VertexId;
 use crate::mesh::{Attributes, Uvs, VertexScalar};
 use glam::DVec2;
 
@@ -63,7 +64,7 @@ impl Channels {
         mut self,
         file: &str,
         count: usize,
-        faces: &[[u32; 3]],
+        faces: &[[VertexId; 3]],
     ) -> (Attributes, Vec<Diagnostic>) {
         let mut warnings = Vec::new();
         let mut warn = |name: &str, why: String| {
@@ -89,7 +90,7 @@ impl Channels {
         let points = self.pair(TEXTURE);
         let uvs = points.map(|points| Uvs {
             points,
-            corners: faces.to_vec(),
+            corners: faces.iter().map(|f| f.map(|v| v.0)).collect(),
         });
         let scalars = self.kept.into_iter().map(|c| VertexScalar {
             name: c.name,

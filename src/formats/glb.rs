@@ -4,6 +4,7 @@
 
 use crate::formats::narrow::{count, single};
 use crate::formats::part::Part;
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use glam::{DMat3, DQuat, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
@@ -128,7 +129,7 @@ fn push_part(root: &mut Root, binary: &mut Vec<u8>, part: &Part) -> Index<Node> 
 fn push_corners(binary: &mut Vec<u8>, mesh: &TriMesh) -> ([f32; 3], [f32; 3]) {
     binary.reserve(mesh.faces.len() * 3 * CORNER_BYTES);
     let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for face in 0..mesh.faces.len() {
+    for face in FaceId::all(mesh.faces.len()) {
         // glTF wants unit normals, also of the faces that have none.
         let normal = mesh.area_vector(face).try_normalize().unwrap_or(DVec3::Z);
         let normal = DVec3::new(normal.x, normal.z, -normal.y)

@@ -157,5 +157,5 @@ fn from_tobj(read: &tobj::Mesh, usable: &Usable) -> (TriMesh, Attributes) {
         uvs,
         scalars: Vec::new(),
     };
-    (TriMesh { vertices, faces }, attributes)
+    (TriMesh::new(vertices, faces), attributes)
 }

@@ -543,10 +543,7 @@ impl Builder {
         }
         let corners = self.triangles();
         let faces = corners.iter().map(|t| t.map(|c| self.corners[c as usize]));
-        let mesh = TriMesh {
-            faces: faces.collect(),
-            vertices: self.vertices,
-        };
+        let mesh = TriMesh::new(self.vertices, faces);
         let (mut attributes, mut warnings) = self.channels.finish(file, count, &mesh.faces);
         let sound = self.uvs.iter().all(|p| p.is_finite());
         if sound && self.uv_counts == self.arities {

@@ -101,13 +101,8 @@ impl Soup {
             let place = Place::File(file.to_owned());
             return Err(Diagnostic::error("the file has more than 1431655765 triangles").at(place));
         };
-        let faces = (0..corners / 3)
-            .map(|f| [3 * f, 3 * f + 1, 3 * f + 2])
-            .collect();
-        Ok(TriMesh {
-            vertices: self.vertices,
-            faces,
-        })
+        let faces = (0..corners / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]);
+        Ok(TriMesh::new(self.vertices, faces))
     }
 }
 

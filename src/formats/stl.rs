@@ -1,6 +1,7 @@
 //! Binary STL: little-endian f32, millimetres, z up.
 
 use crate::formats::narrow::count;
+use crate::index::FaceId;
 use crate::mesh::Solid;
 
 const HEADER_BYTES: usize = 80;
@@ -15,7 +16,7 @@ pub fn write_stl(solid: &Solid, title: &str) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 + RECORD_BYTES * mesh.faces.len());
     bytes.extend_from_slice(&header(title));
     bytes.extend_from_slice(&count(mesh.faces.len()).to_le_bytes());
-    for face in 0..mesh.faces.len() {
+    for face in FaceId::all(mesh.faces.len()) {
         for point in std::iter::once(mesh.normal(face)).chain(mesh.corners(face)) {
             for coordinate in point.as_vec3().to_array() {
                 bytes.extend_from_slice(&coordinate.to_le_bytes());

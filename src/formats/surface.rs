@@ -2,6 +2,7 @@
 //! colours). Not for printing: such a surface may be open, torn or cross itself.
 
 use crate::formats::narrow::{byte, single};
+use crate::index::VertexId;
 use crate::mesh::{NO_UV, Uvs, VertexScalar};
 use crate::surface::Surface;
 use glam::DVec2;
@@ -62,7 +63,7 @@ fn push_vertices(bytes: &mut Vec<u8>, surface: &Surface, channels: usize, uvs: O
         ];
         own.into_iter().for_each(&mut double);
         bytes.extend_from_slice(&reach.group.to_le_bytes());
-        bytes.extend_from_slice(&surface.input_vertex[v].to_le_bytes());
+        bytes.extend_from_slice(&surface.input_vertex[v].0.to_le_bytes());
         if let Some(colour) = attributes.colours.get(v) {
             bytes.extend(colour[..channels].iter().map(|c| byte(*c)));
         }
@@ -75,11 +76,11 @@ fn push_vertices(bytes: &mut Vec<u8>, surface: &Surface, channels: usize, uvs: O
     }
 }
 
-fn push_faces(bytes: &mut Vec<u8>, faces: &[[u32; 3]], uvs: Option<&Uvs>) {
+fn push_faces(bytes: &mut Vec<u8>, faces: &[[VertexId; 3]], uvs: Option<&Uvs>) {
     for (f, face) in faces.iter().enumerate() {
         bytes.push(3);
         face.iter()
-            .for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
+            .for_each(|v| bytes.extend_from_slice(&v.0.to_le_bytes()));
         let Some(uvs) = uvs else { continue };
         bytes.push(6);
         for uv in uvs.corners[f] {
@@ -153,7 +154,7 @@ pub fn write_surface_obj(surface: &Surface) -> Vec<u8> {
     for (f, face) in surface.mesh.faces.iter().enumerate() {
         text.push('f');
         for (k, v) in face.iter().enumerate() {
-            let _ = write!(text, " {}", v + 1);
+            let _ = write!(text, " {}", v.0 + 1);
             let uv = uvs.map_or(NO_UV, |uvs| uvs.corners[f][k]);
             if uv != NO_UV {
                 let _ = write!(text, "/{}", uv + 1);

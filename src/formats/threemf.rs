@@ -6,6 +6,7 @@
 
 use crate::formats::markup::escaped;
 use crate::formats::part::Part;
+use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
@@ -267,7 +268,7 @@ fn push_object(xml: &mut String, id: usize, pid: usize, part: &Part) {
         _ = writeln!(xml, "<vertex x=\"{x}\" y=\"{y}\" z=\"{z}\"/>");
     }
     xml.push_str("    </vertices>\n    <triangles>\n");
-    for [a, b, c] in &mesh.faces {
+    for [VertexId(a), VertexId(b), VertexId(c)] in &mesh.faces {
         _ = writeln!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
     xml.push_str("    </triangles>\n   </mesh>\n  </object>\n");

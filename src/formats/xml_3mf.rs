@@ -4,6 +4,7 @@
 //! unknown ones are passed over; document type declarations are refused, as the standard asks.
 
 use crate::formats::text::{coordinate, excerpt};
+use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use glam::{DMat4, DVec3, DVec4};
 use quick_xml::events::{BytesStart, Event};
@@ -98,7 +99,7 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
         b"triangle" => {
             if let Some(object) = part.objects.last_mut() {
                 let face = [index(e, b"v1")?, index(e, b"v2")?, index(e, b"v3")?];
-                object.mesh.faces.push(face);
+                object.mesh.faces.push(face.map(VertexId));
             }
         }
         b"component" => {
@@ -119,14 +120,9 @@ fn close(part: &ModelPart, name: &[u8]) -> Result<(), String> {
         return Ok(());
     };
     let count = object.mesh.vertices.len();
-    let bad = object
-        .mesh
-        .faces
-        .iter()
-        .flatten()
-        .find(|v| **v as usize >= count);
+    let bad = object.mesh.faces.iter().flatten().find(|v| v.at() >= count);
     match bad {
-        Some(v) => Err(format!(
+        Some(VertexId(v)) => Err(format!(
             "object {}: a triangle uses vertex {v}, but there are {count} vertices (counted from 0)",
             object.id
         )),

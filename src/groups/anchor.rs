@@ -1,7 +1,7 @@
 //! Points of a surface as mixes of its vertices, as depths mix on a face.
 
 use crate::geom::barycentric;
-use crate::index::FaceId;
+use crate::index::{FaceId, VertexId};
 use crate::viewmap::Target;
 use glam::DVec2;
 
@@ -12,22 +12,22 @@ const ON_SIDE: f64 = 4e-7;
 /// A point of the target surface as a mix of its vertices: `1 / s = sum of weight / s_vertex`, weights positive with sum 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
-    pub vertices: [u32; 3],
+    pub vertices: [VertexId; 3],
     pub weights: [f64; 3],
 }
 
 impl Anchor {
     /// The vertices that matter with their weights.
-    pub fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub fn terms(&self) -> impl Iterator<Item = (VertexId, f64)> {
         let (vertices, weights) = (self.vertices, self.weights);
         (0..3)
             .filter(move |k| weights[*k] > 0.0)
-            .map(move |k| (vertices[k] as usize, weights[k]))
+            .map(move |k| (vertices[k], weights[k]))
     }
 
     /// Whether a free vertex has a share in the point: then it has no bounds.
     pub fn is_free(&self, target: &Target) -> bool {
-        !target.free.is_empty() && self.terms().any(|(v, _)| target.is_free(v as u32))
+        !target.free.is_empty() && self.terms().any(|(v, _)| target.is_free(v))
     }
 
     /// Relative depth of the point from those of all vertices (design: harmonic, because `1/lambda` is linear in the image).
@@ -37,7 +37,7 @@ impl Anchor {
 }
 
 /// A vertex itself as an anchor.
-pub fn vertex_anchor(vertex: u32) -> Anchor {
+pub fn vertex_anchor(vertex: VertexId) -> Anchor {
     Anchor {
         vertices: [vertex; 3],
         weights: [1.0, 0.0, 0.0],
@@ -46,7 +46,7 @@ pub fn vertex_anchor(vertex: u32) -> Anchor {
 
 /// The point `q` of the image on a face as an anchor, with its depth in the model. Points a little outside are drawn in.
 pub fn anchor(target: &Target, face: FaceId, q: DVec2) -> (Anchor, f64) {
-    let [a, b, c] = target.image_of(face.at());
+    let [a, b, c] = target.image_of(face);
     let vertices = target.mesh.faces[face];
     let area = (b - a).perp_dot(c - a).abs();
     let heights = [b.distance(c), c.distance(a), a.distance(b)].map(|side| area / side);
@@ -62,7 +62,7 @@ pub fn anchor(target: &Target, face: FaceId, q: DVec2) -> (Anchor, f64) {
         beta = [1.0, 0.0, 0.0];
     }
     let sum: f64 = beta.iter().sum();
-    let inverse = [0, 1, 2].map(|k| beta[k] / sum / target.depth[vertices[k] as usize]);
+    let inverse = [0, 1, 2].map(|k| beta[k] / sum / target.depth[vertices[k]]);
     let total: f64 = inverse.iter().sum();
     (
         Anchor {

@@ -2,7 +2,7 @@
 
 use super::anchor::anchor;
 use super::group::{Bound, Groups};
-use crate::index::{FacetId, GroupId, PointId};
+use crate::index::{FacetId, GroupId, PointId, VertexId};
 use crate::viewmap::Image;
 
 /// Relative depths (of an eye at infinity: `focal` times these) and weights that differ by less are the same: a thousandth of what
@@ -14,19 +14,22 @@ impl Bound {
     fn agrees(&self, other: &Bound, focal: f64) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= SAME;
         let level = |a: f64, b: f64| (a - b).abs() <= SAME / focal;
-        let weight = |v: usize| other.anchor.terms().find(|t| t.0 == v).map_or(0.0, |t| t.1);
+        let weight = |v: VertexId| other.anchor.terms().find(|t| t.0 == v).map_or(0.0, |t| t.1);
         level(self.lower, other.lower)
             && level(self.upper, other.upper)
             && self.anchor.terms().all(|(v, w)| near(w, weight(v)))
     }
 }
 
+/// Stands behind all vertices of a key.
+const NO_VERTEX: VertexId = VertexId(u32::MAX);
+
 /// The bounds of a view, and how many of them come first because they do not follow from others.
 pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
     let (map, target) = (&image.map, &image.target);
     // One bound for each group, plane of the layer, point and set of vertices: cells that share a corner on a mesh vertex or
     // edge agree there.
-    type BoundKey = (GroupId, [Option<FacetId>; 2], PointId, [u32; 3]);
+    type BoundKey = (GroupId, [Option<FacetId>; 2], PointId, [VertexId; 3]);
     let mut keyed: Vec<(BoundKey, Bound)> = Vec::new();
     for (c, cell) in map.all() {
         let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
@@ -47,7 +50,7 @@ pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]
                 } else {
-                    u32::MAX
+                    NO_VERTEX
                 }
             });
             key.sort_unstable();
@@ -74,8 +77,8 @@ pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
 /// vertices that are all bounded in the same group follow.
 fn needed_first(bounds: Vec<Bound>, groups: &Groups) -> (Vec<Bound>, usize) {
     let alone = |b: &Bound| b.anchor.terms().count() == 1;
-    let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0 as u32).next();
-    let mut bounded: Vec<(GroupId, u32)> = bounds
+    let vertex = |b: &Bound| b.anchor.terms().map(|t| t.0).next();
+    let mut bounded: Vec<(GroupId, VertexId)> = bounds
         .iter()
         .filter(|b| alone(b))
         .filter_map(|b| Some((b.group, vertex(b)?)))
@@ -91,7 +94,7 @@ fn needed_first(bounds: Vec<Bound>, groups: &Groups) -> (Vec<Bound>, usize) {
             && flat(b)
             && b.anchor
                 .terms()
-                .all(|(v, _)| bounded.binary_search(&(b.group, v as u32)).is_ok())
+                .all(|(v, _)| bounded.binary_search(&(b.group, v)).is_ok())
     };
     let (follow, mut needed): (Vec<Bound>, Vec<Bound>) = bounds.into_iter().partition(follows);
     let count = needed.len();

@@ -2,7 +2,7 @@
 
 use super::bounds::bounds;
 use super::group::{Group, Groups};
-use crate::index::{CellId, GroupId, SupportId};
+use crate::index::{CellId, ComponentId, GroupId, SupportId};
 use crate::mesh::face_components;
 use crate::support::Slab;
 use crate::viewmap::{Image, ViewMap};
@@ -80,7 +80,7 @@ pub fn without(groups: &Groups, lost: &[CellId], image: &Image) -> Groups {
 }
 
 /// Support, part of it, component of the model.
-type Label = (SupportId, u32, u32);
+type Label = (SupportId, u32, ComponentId);
 
 /// Flood fill over equal labels.
 fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<GroupId>>) {

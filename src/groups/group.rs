@@ -1,7 +1,7 @@
 //! Groups and bounds as values.
 
 use super::anchor::Anchor;
-use crate::index::{CellId, GroupId, SupportId};
+use crate::index::{CellId, ComponentId, GroupId, SupportId};
 use crate::support::Slab;
 
 /// A connected region of the image on one part of a support, of one mesh component.
@@ -10,7 +10,7 @@ pub struct Group {
     pub support: SupportId,
     /// Of the support's surface; see [`Support::part`](crate::support::Support::part).
     pub part: u32,
-    pub component: u32,
+    pub component: ComponentId,
     /// Cells of the view map, rising.
     pub cells: Vec<CellId>,
     pub solid_angle_sr: f64,

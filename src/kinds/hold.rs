@@ -1,7 +1,7 @@
 //! What of a whole mesh is held, as bounds of one group.
 
 use crate::groups::{Bound, Group, Groups, anchor, vertex_anchor};
-use crate::index::{CellId, GroupId, PointId, SupportId};
+use crate::index::{CellId, ComponentId, GroupId, PointId, SupportId, VertexId};
 use crate::sight::Sight;
 use crate::support::Slab;
 use crate::viewmap::Image;
@@ -59,7 +59,7 @@ pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, MustBeCut> {
     let group = Group {
         support,
         part: 0,
-        component: 0,
+        component: ComponentId(0),
         solid_angle_sr: cells.iter().map(|c| map.solid_angle(*c)).sum(),
         cells,
     };
@@ -100,7 +100,7 @@ fn one_surface(groups: &[Group]) -> Result<Option<SupportId>, MustBeCut> {
 fn free(sight: &Sight, slab: &Slab, flush: f64) -> Vec<Bound> {
     let Sight { image, groups, .. } = sight;
     let (target, map) = (&image.target, &image.map);
-    let mut found: Vec<((PointId, [u32; 3]), Bound)> = Vec::new();
+    let mut found: Vec<((PointId, [VertexId; 3]), Bound)> = Vec::new();
     for (c, cell) in map.all() {
         let (Some(_), Some(face)) = (groups.of_cell[c], cell.face) else {
             continue;
@@ -122,7 +122,7 @@ fn free(sight: &Sight, slab: &Slab, flush: f64) -> Vec<Bound> {
             };
             let mut terms = anchor.terms();
             let key = match (terms.next(), terms.next()) {
-                (Some((v, _)), None) => (PointId(u32::MAX), [v as u32; 3]),
+                (Some((v, _)), None) => (PointId(u32::MAX), [v; 3]),
                 _ => (p, target.mesh.faces[face]),
             };
             found.push((key, bound));
@@ -144,20 +144,20 @@ fn hidden(image: &Image, slab: &Slab, support: SupportId, bounds: &[Bound]) -> V
         }
     }
     let eye = map.plane.eye;
-    let far = |v: &usize| {
+    let far = |v: &VertexId| {
         let direction = map.plane.direction(target.image[*v]);
         let surface = field.hit_of(support, eye, direction)?;
         let leaves = surface + field.thickness(support, eye, direction);
         let upper = leaves - slab.core() / direction.length();
         let bound = Bound {
             group: ONLY,
-            anchor: vertex_anchor(*v as u32),
+            anchor: vertex_anchor(*v),
             lower: 0.0,
             upper: upper / target.depth[*v],
             drawn: false,
         };
         upper.is_finite().then_some(bound)
     };
-    let open = (0..held.len()).filter(|v| !held[*v]);
+    let open = VertexId::all(held.len()).filter(|v| !held[*v]);
     open.filter_map(|v| far(&v)).collect()
 }

@@ -5,6 +5,7 @@
 //! whoever writes the model again finds every corner's texture point and whoever needs a value at a vertex of the model gets
 //! one. Placing moves vertices only, so attributes do not know of it.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec2;
 
@@ -79,7 +80,7 @@ impl Uvs {
             .zip(self.corners.iter().flatten());
         for (vertex, uv) in corners {
             let point = self.points.get(*uv as usize).copied().unwrap_or_default();
-            let slot = &mut found[*vertex as usize];
+            let slot = &mut found[*vertex];
             if *slot.get_or_insert(point) != point {
                 return None;
             }
@@ -95,7 +96,7 @@ pub struct Original {
     pub mesh: TriMesh,
     pub attributes: Attributes,
     /// The model's vertex at every vertex of the file; `None` where no face used it. Several may have become one.
-    pub vertex_of: Vec<Option<u32>>,
+    pub vertex_of: Vec<Option<VertexId>>,
     /// Vertices and faces of the file, where this is a simplified form of it.
     pub lowered_from: Option<[usize; 2]>,
 }
@@ -106,7 +107,7 @@ impl Original {
         let values = self.attributes.values(name)?;
         let mut sums = vec![(0.0, 0.0); count];
         for (value, vertex) in values.iter().zip(&self.vertex_of) {
-            if let Some(slot) = vertex.and_then(|v| sums.get_mut(v as usize)) {
+            if let Some(slot) = vertex.and_then(|v| sums.get_mut(v.at())) {
                 *slot = (slot.0 + value, slot.1 + 1.0);
             }
         }
@@ -119,21 +120,21 @@ impl Original {
 
     /// The file's face that became each face of the model, by their vertices; a face that became several takes the first.
     /// `None` where there is no such face.
-    pub fn faces_of(&self, model: &TriMesh) -> Vec<Option<u32>> {
-        let key = |mut face: [u32; 3]| {
+    pub fn faces_of(&self, model: &TriMesh) -> Vec<Option<FaceId>> {
+        let key = |mut face: [VertexId; 3]| {
             face.sort_unstable();
             face
         };
-        let became = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|v| self.vertex_of[v as usize]);
+        let became = |face: &[VertexId; 3]| {
+            let [a, b, c] = face.map(|v| self.vertex_of[v]);
             Some(key([a?, b?, c?]))
         };
-        let faces = self.mesh.faces.iter().enumerate();
-        let mut known: Vec<([u32; 3], u32)> = faces
-            .filter_map(|(f, face)| Some((became(face)?, f as u32)))
+        let faces = FaceId::all(self.mesh.faces.len()).zip(&self.mesh.faces);
+        let mut known: Vec<([VertexId; 3], FaceId)> = faces
+            .filter_map(|(f, face)| Some((became(face)?, f)))
             .collect();
         known.sort_unstable();
-        let find = |face: &[u32; 3]| {
+        let find = |face: &[VertexId; 3]| {
             let at = known.partition_point(|k| k.0 < key(*face));
             known.get(at).filter(|k| k.0 == key(*face)).map(|k| k.1)
         };

@@ -3,6 +3,7 @@
 //! Takes closed boxes, gives for a query box every box that overlaps or touches it. Nothing is padded or rounded.
 //! (The trees of the `bvh` module are f32 and made for rays.)
 
+use crate::index::{FaceId, indices};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
@@ -14,7 +15,7 @@ pub struct Box3 {
 }
 
 impl Box3 {
-    pub fn of_face(mesh: &TriMesh, face: usize) -> Self {
+    pub fn of_face(mesh: &TriMesh, face: FaceId) -> Self {
         let [a, b, c] = mesh.corners(face);
         Self {
             lo: a.min(b).min(c),
@@ -39,6 +40,13 @@ const LEAF: usize = 4;
 /// Halving 2^32 boxes down to leaves needs fewer levels than this.
 const MAX_DEPTH: usize = 48;
 
+indices! {
+    /// A box: its place among those given.
+    BoxId
+    /// A node of a tree.
+    NodeId
+}
+
 struct Node {
     bounds: Box3,
     /// A leaf's items are `first .. first + count`; an inner node has `count` 0, its left child follows it directly
@@ -51,19 +59,19 @@ struct Node {
 pub struct BoxTree {
     nodes: Vec<Node>,
     /// Box numbers and boxes in tree order.
-    order: Vec<u32>,
+    order: Vec<BoxId>,
     boxes: Vec<Box3>,
 }
 
 impl BoxTree {
     pub fn new(boxes: &[Box3]) -> Self {
         let centres: Vec<DVec3> = boxes.iter().map(|b| b.lo + b.hi).collect();
-        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut order: Vec<BoxId> = BoxId::all(boxes.len()).collect();
         let mut nodes = Vec::new();
         if !boxes.is_empty() {
             split(&mut order, 0, boxes, &centres, &mut nodes);
         }
-        let boxes = order.iter().map(|&i| boxes[i as usize]).collect();
+        let boxes = order.iter().map(|&i| boxes[i]).collect();
         Self {
             nodes,
             order,
@@ -72,24 +80,24 @@ impl BoxTree {
     }
 
     /// Box numbers in an order in which neighbours are near each other.
-    pub fn order(&self) -> &[u32] {
+    pub fn order(&self) -> &[BoxId] {
         &self.order
     }
 
     /// Calls `visit` with the number of every box that meets `query`; stops when it returns false.
-    pub fn overlapping(&self, query: &Box3, mut visit: impl FnMut(u32) -> bool) {
-        let mut stack = [0u32; MAX_DEPTH];
+    pub fn overlapping(&self, query: &Box3, mut visit: impl FnMut(BoxId) -> bool) {
+        let mut stack = [NodeId(0); MAX_DEPTH];
         let mut depth = usize::from(!self.nodes.is_empty());
         while depth > 0 {
             depth -= 1;
             let index = stack[depth];
-            let node = &self.nodes[index as usize];
+            let node = &self.nodes[index];
             if !node.bounds.overlaps(query) {
                 continue;
             }
             if node.count == 0 {
-                stack[depth] = node.first;
-                stack[depth + 1] = index + 1;
+                stack[depth] = NodeId(node.first);
+                stack[depth + 1] = NodeId(index.0 + 1);
                 depth += 2;
                 continue;
             }
@@ -104,7 +112,7 @@ impl BoxTree {
 
 /// Adds the nodes of `order`, whose first item is item `offset` of the tree; halves at the median of the widest axis.
 fn split(
-    order: &mut [u32],
+    order: &mut [BoxId],
     offset: usize,
     boxes: &[Box3],
     centres: &[DVec3],
@@ -112,7 +120,7 @@ fn split(
 ) {
     let bounds = order
         .iter()
-        .map(|&i| boxes[i as usize])
+        .map(|&i| boxes[i])
         .reduce(Box3::union)
         .expect("split is called with at least one box");
     let index = nodes.len();
@@ -127,7 +135,7 @@ fn split(
     }
     let axis = centre_spread(order, centres).max_position();
     let middle = order.len() / 2;
-    let key = |i: &u32| centres[*i as usize][axis];
+    let key = |i: &BoxId| centres[*i][axis];
     order.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
     let (left, right) = order.split_at_mut(middle);
     split(left, offset, boxes, centres, nodes);
@@ -136,10 +144,10 @@ fn split(
     split(right, offset + middle, boxes, centres, nodes);
 }
 
-fn centre_spread(order: &[u32], centres: &[DVec3]) -> DVec3 {
-    let first = centres[order[0] as usize];
+fn centre_spread(order: &[BoxId], centres: &[DVec3]) -> DVec3 {
+    let first = centres[order[0]];
     let (lo, hi) = order.iter().fold((first, first), |(lo, hi), &i| {
-        (lo.min(centres[i as usize]), hi.max(centres[i as usize]))
+        (lo.min(centres[i]), hi.max(centres[i]))
     });
     hi - lo
 }

@@ -4,6 +4,7 @@
 //! blocking defects bounds a printable body: closed, consistently wound, every edge with two faces, every vertex with
 //! one fan, no two faces in each other's way, material inside.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::intersect::{projection_axis, self_intersections};
 use crate::mesh::shells::{Shell, shells};
 use crate::mesh::topology::{Edges, HalfEdge, bowtie_vertices};
@@ -177,7 +178,7 @@ pub fn check(mesh: &TriMesh) -> Vec<Defect> {
         &mut defects,
         DefectKind::BowtieVertex,
         bowties.len(),
-        || mesh.vertices[bowties[0] as usize],
+        || mesh.vertices[bowties[0]],
     );
     let pairs = self_intersections(mesh, MAX_PAIRS);
     push(
@@ -216,7 +217,7 @@ fn unreadable(mesh: &TriMesh) -> Vec<Defect> {
             DefectKind::BadIndex,
             mesh.faces
                 .iter()
-                .filter(|f| f.iter().any(|v| *v as usize >= mesh.vertices.len()))
+                .filter(|f| f.iter().any(|v| v.at() >= mesh.vertices.len()))
                 .count(),
         ),
     ];
@@ -229,19 +230,19 @@ fn unreadable(mesh: &TriMesh) -> Vec<Defect> {
 
 fn face_defects(mesh: &TriMesh) -> Vec<Defect> {
     let mut defects = Vec::new();
-    let repeats = |f: usize| {
+    let repeats = |f: FaceId| {
         let [a, b, c] = mesh.faces[f];
         a == b || b == c || c == a
     };
-    let faces = 0..mesh.faces.len();
-    let repeated: Vec<usize> = faces.clone().filter(|f| repeats(*f)).collect();
+    let faces = FaceId::all(mesh.faces.len());
+    let repeated: Vec<FaceId> = faces.clone().filter(|f| repeats(*f)).collect();
     push(
         &mut defects,
         DefectKind::RepeatedIndex,
         repeated.len(),
         || mesh.corners(repeated[0])[0],
     );
-    let flat: Vec<usize> = faces
+    let flat: Vec<FaceId> = faces
         .filter(|f| !repeats(*f) && projection_axis(&mesh.corners(*f)).is_none())
         .collect();
     push(&mut defects, DefectKind::ZeroArea, flat.len(), || {
@@ -250,7 +251,7 @@ fn face_defects(mesh: &TriMesh) -> Vec<Defect> {
     let duplicates = duplicate_groups(mesh);
     let extra = duplicates.iter().map(|g| g.len() - 1).sum();
     push(&mut defects, DefectKind::DuplicateFace, extra, || {
-        centre(mesh, duplicates[0][1] as usize)
+        centre(mesh, duplicates[0][1])
     });
     defects
 }
@@ -270,7 +271,7 @@ fn edge_defects(mesh: &TriMesh, edges: &Edges) -> Vec<Defect> {
     for (kind, is_bad) in kinds {
         let bad: Vec<&[HalfEdge]> = edges.iter().filter(|e| is_bad(e)).collect();
         push(&mut defects, kind, bad.len(), || {
-            let end = |v: u32| mesh.vertices[v as usize];
+            let end = |v: VertexId| mesh.vertices[v];
             end(bad[0][0].low).midpoint(end(bad[0][0].high))
         });
     }
@@ -291,7 +292,7 @@ fn shell_defects(mesh: &TriMesh) -> Vec<Defect> {
             &mut defects,
             DefectKind::MisplacedShell,
             wrong.len(),
-            || mesh.corners(wrong[0].first_face as usize)[0],
+            || mesh.corners(wrong[0].first_face)[0],
         );
     }
     defects
@@ -300,7 +301,7 @@ fn shell_defects(mesh: &TriMesh) -> Vec<Defect> {
 fn unreferenced(mesh: &TriMesh) -> Option<Defect> {
     let mut used = vec![false; mesh.vertices.len()];
     for v in mesh.faces.iter().flatten() {
-        used[*v as usize] = true;
+        used[*v] = true;
     }
     let count = used.iter().filter(|u| !**u).count();
     let first = used.iter().position(|u| !*u)?;
@@ -311,12 +312,12 @@ fn unreferenced(mesh: &TriMesh) -> Option<Defect> {
     ))
 }
 
-fn centre(mesh: &TriMesh, face: usize) -> DVec3 {
+fn centre(mesh: &TriMesh, face: FaceId) -> DVec3 {
     mesh.corners(face).into_iter().sum::<DVec3>() / 3.0
 }
 
 /// A point near which two faces meet: the middle of what their boxes share.
-fn meeting_place(mesh: &TriMesh, [a, b]: [u32; 2]) -> DVec3 {
-    let [a, b] = [a, b].map(|f| crate::mesh::boxes::Box3::of_face(mesh, f as usize));
+fn meeting_place(mesh: &TriMesh, [a, b]: [FaceId; 2]) -> DVec3 {
+    let [a, b] = [a, b].map(|f| crate::mesh::boxes::Box3::of_face(mesh, f));
     a.lo.max(b.lo).midpoint(a.hi.min(b.hi))
 }

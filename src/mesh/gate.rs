@@ -6,6 +6,7 @@
 //! listed. Coordinates do not change, except that cracks narrower than [`CRACK`] are closed; vertices and faces are numbered
 //! by place, so that nothing later depends on the file's order.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::defects::{Defect, DefectKind, check};
 use crate::mesh::order::numbered;
 use crate::mesh::shells::shells;
@@ -29,7 +30,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Gated {
     pub mesh: TriMesh,
     /// Where the vertices of the mesh that was read went; `None`: dropped.
-    pub vertex_of: Vec<Option<u32>>,
+    pub vertex_of: Vec<Option<VertexId>>,
     pub corrections: Corrections,
     /// What keeps the mesh from being a sound closed surface.
     pub defects: Vec<Defect>,
@@ -67,7 +68,7 @@ pub enum Refusal {
 }
 
 /// Follows vertices through one more renumbering.
-fn follow(vertex_of: &mut [Option<u32>], next: impl Fn(u32) -> Option<u32>) {
+fn follow(vertex_of: &mut [Option<VertexId>], next: impl Fn(VertexId) -> Option<VertexId>) {
     for v in vertex_of {
         *v = v.and_then(&next);
     }
@@ -82,12 +83,10 @@ pub fn gate(mut mesh: TriMesh) -> Result<Gated, Refusal> {
     let closed_as_read = Edges::new(&mesh).iter().all(|e| e.len() > 1);
     let welded = weld(&mesh, 0.0);
     let (ordered, number) = numbered(&welded.mesh);
-    follow(&mut vertex_of, |v| {
-        Some(number[welded.vertex_of[v as usize] as usize])
-    });
+    follow(&mut vertex_of, |v| Some(number[welded.vertex_of[v]]));
     let (mut mesh, joined) = match seal_cracks(&ordered, CRACK * size.length()) {
         Some(sealed) => {
-            follow(&mut vertex_of, |v| Some(sealed.vertex_of[v as usize]));
+            follow(&mut vertex_of, |v| Some(sealed.vertex_of[v]));
             (sealed.mesh, sealed.merged)
         }
         None => (ordered, 0),
@@ -105,10 +104,10 @@ pub fn gate(mut mesh: TriMesh) -> Result<Gated, Refusal> {
     let turned = orient(&mut mesh);
     let outwards = turn_outwards(&mut mesh);
     let kept = keep_referenced(&mut mesh);
-    follow(&mut vertex_of, |v| kept[v as usize]);
+    follow(&mut vertex_of, |v| kept[v]);
     let mut defects = check(&mesh);
     defects.retain(|d| d.kind != DefectKind::UnreferencedVertex);
-    let faces = 0..mesh.faces.len();
+    let faces = FaceId::all(mesh.faces.len());
     let needles = faces.filter(|f| is_needle(&mesh, *f)).count();
     Ok(Gated {
         mesh,
@@ -145,8 +144,8 @@ fn seal_cracks(mesh: &TriMesh, tolerance: f64) -> Option<Welded> {
     let mut on_border = vec![false; mesh.vertices.len()];
     let open_edges = |mesh: &TriMesh| Edges::new(mesh).iter().filter(|e| e.len() == 1).count();
     for edge in Edges::new(mesh).iter().filter(|e| e.len() == 1) {
-        on_border[edge[0].low as usize] = true;
-        on_border[edge[0].high as usize] = true;
+        on_border[edge[0].low] = true;
+        on_border[edge[0].high] = true;
     }
     let sealed = weld_some(mesh, tolerance, &on_border);
     (sealed.merged > 0 && open_edges(&sealed.mesh) < open_edges(mesh)).then_some(sealed)
@@ -156,12 +155,12 @@ fn seal_cracks(mesh: &TriMesh, tolerance: f64) -> Option<Welded> {
 /// surfaces (Moebius) some edges must stay mixed.
 fn orient(mesh: &mut TriMesh) -> usize {
     let edges = Edges::new(mesh);
-    let mut neighbours: Vec<[Option<(u32, bool)>; 3]> = vec![[None; 3]; mesh.faces.len()];
+    let mut neighbours: Vec<[Option<(FaceId, bool)>; 3]> = vec![[None; 3]; mesh.faces.len()];
     for edge in edges.iter() {
         if let [a, b] = edge {
             let differs = a.forward == b.forward;
             let mut link = |from: &HalfEdge, to: &HalfEdge| {
-                neighbours[from.face as usize][from.corner as usize] = Some((to.face, differs));
+                neighbours[from.face][usize::from(from.corner)] = Some((to.face, differs));
             };
             link(a, b);
             link(b, a);
@@ -169,7 +168,7 @@ fn orient(mesh: &mut TriMesh) -> usize {
     }
     let mut turned: Vec<Option<bool>> = vec![None; mesh.faces.len()];
     let mut total = 0;
-    for seed in 0..mesh.faces.len() {
+    for seed in FaceId::all(mesh.faces.len()) {
         if turned[seed].is_some() {
             continue;
         }
@@ -179,9 +178,9 @@ fn orient(mesh: &mut TriMesh) -> usize {
         while let Some(&face) = patch.get(done) {
             done += 1;
             for (next, differs) in neighbours[face].iter().flatten() {
-                if turned[*next as usize].is_none() {
-                    turned[*next as usize] = turned[face].map(|t| t != *differs);
-                    patch.push(*next as usize);
+                if turned[*next].is_none() {
+                    turned[*next] = turned[face].map(|t| t != *differs);
+                    patch.push(*next);
                 }
             }
         }
@@ -217,7 +216,7 @@ fn turn_outwards(mesh: &mut TriMesh) -> usize {
         .map(|s| s.volume < 0.0 && s.winding < 1)
         .collect();
     for (face, c) in mesh.faces.iter_mut().zip(&component) {
-        if wrong[*c as usize] {
+        if wrong[*c] {
             face.swap(1, 2);
         }
     }
@@ -226,7 +225,7 @@ fn turn_outwards(mesh: &mut TriMesh) -> usize {
 }
 
 /// Thinner than [`NEEDLE`], though not without area (that is a defect of its own).
-fn is_needle(mesh: &TriMesh, face: usize) -> bool {
+fn is_needle(mesh: &TriMesh, face: FaceId) -> bool {
     let [a, b, c] = mesh.corners(face);
     let longest = (b - a)
         .length_squared()

@@ -5,6 +5,7 @@
 //! a vertex that lies exactly on a foreign face counts and one a rounding error above it does not.
 //! Faces of zero area and faces with the same three vertices are left out: they are other defects.
 
+use crate::index::FaceId;
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
@@ -17,20 +18,20 @@ const BLOCK: usize = 1 << 10;
 
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.
-pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[u32; 2]> {
-    let boxes: Vec<Box3> = (0..mesh.faces.len())
+pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
+    let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
         .map(|f| Box3::of_face(mesh, f))
         .collect();
     let flat: Vec<Option<usize>> = (0..mesh.faces.len())
         .into_par_iter()
-        .map(|f| projection_axis(&mesh.corners(f)))
+        .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))
         .collect();
     let tree = BoxTree::new(&boxes);
     let mut pairs = Vec::new();
     for block in tree.order().chunks(BLOCK) {
-        let found: Vec<Vec<[u32; 2]>> = block
+        let found: Vec<Vec<[FaceId; 2]>> = block
             .par_iter()
-            .map(|&a| partners(mesh, &flat, &tree, &boxes, a, limit))
+            .map(|&a| partners(mesh, &flat, &tree, &boxes, FaceId(a.0), limit))
             .collect();
         pairs.extend(found.into_iter().flatten());
         if pairs.len() >= limit {
@@ -47,17 +48,18 @@ fn partners(
     flat: &[Option<usize>],
     tree: &BoxTree,
     boxes: &[Box3],
-    a: u32,
+    a: FaceId,
     limit: usize,
-) -> Vec<[u32; 2]> {
+) -> Vec<[FaceId; 2]> {
     let mut pairs = Vec::new();
-    let Some(axis_a) = flat[a as usize] else {
+    let Some(axis_a) = flat[a] else {
         return pairs;
     };
-    tree.overlapping(&boxes[a as usize], |b| {
+    tree.overlapping(&boxes[a], |b| {
+        let b = FaceId(b.0);
         if b > a
-            && let Some(axis_b) = flat[b as usize]
-            && faces_intersect(mesh, [a as usize, b as usize], [axis_a, axis_b])
+            && let Some(axis_b) = flat[b]
+            && faces_intersect(mesh, [a, b], [axis_a, axis_b])
         {
             pairs.push([a, b]);
         }
@@ -66,7 +68,7 @@ fn partners(
     pairs
 }
 
-fn faces_intersect(mesh: &TriMesh, [a, b]: [usize; 2], [axis_a, axis_b]: [usize; 2]) -> bool {
+fn faces_intersect(mesh: &TriMesh, [a, b]: [FaceId; 2], [axis_a, axis_b]: [usize; 2]) -> bool {
     let (va, vb) = (mesh.faces[a], mesh.faces[b]);
     let shared_a = [0, 1, 2].map(|k| vb.contains(&va[k]));
     let (ta, tb) = (

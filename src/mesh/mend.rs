@@ -5,6 +5,7 @@
 //! their area to the face across their long edge; surfaces that only touch are drawn apart. Promises not to open it and to move nothing by more than the last of
 //! [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::detach::detach;
 use crate::mesh::intersect::self_intersections;
 use crate::mesh::separate::separate;
@@ -42,7 +43,7 @@ pub fn mend(mesh: &TriMesh) -> Mended {
     for (rung, height) in HEIGHTS_MM.into_iter().enumerate() {
         let everywhere = rung == 0;
         let trouble = if everywhere {
-            (0..mesh.faces.len() as u32).collect()
+            FaceId::all(mesh.faces.len()).collect()
         } else {
             trouble(&mesh)
         };
@@ -79,10 +80,9 @@ fn drawn_apart(mesh: TriMesh) -> TriMesh {
 }
 
 /// Faces that cut others, their neighbourhoods and faces without area, rising.
-fn trouble(mesh: &TriMesh) -> Vec<u32> {
-    let flat =
-        (0..mesh.faces.len() as u32).filter(|f| mesh.area_vector(*f as usize) == DVec3::ZERO);
-    let mut faces: Vec<u32> = self_intersections(mesh, MAX_PAIRS)
+fn trouble(mesh: &TriMesh) -> Vec<FaceId> {
+    let flat = FaceId::all(mesh.faces.len()).filter(|f| mesh.area_vector(*f) == DVec3::ZERO);
+    let mut faces: Vec<FaceId> = self_intersections(mesh, MAX_PAIRS)
         .into_iter()
         .flatten()
         .chain(flat)
@@ -93,7 +93,7 @@ fn trouble(mesh: &TriMesh) -> Vec<u32> {
 }
 
 /// Dissolves slivers lower than `height` among `faces` and their neighbours.
-fn dissolve(mesh: &mut TriMesh, faces: Vec<u32>, height: f64) {
+fn dissolve(mesh: &mut TriMesh, faces: Vec<FaceId>, height: f64) {
     let mut surgery = Surgery::new(mesh, faces, height);
     surgery.run();
     drop_collapsed(mesh);
@@ -105,25 +105,25 @@ fn dissolve(mesh: &mut TriMesh, faces: Vec<u32>, height: f64) {
 /// Local changes on a closed mesh; dead faces become `[v, v, v]`.
 struct Surgery<'a> {
     mesh: &'a mut TriMesh,
-    around: Vec<Vec<u32>>,
-    queue: VecDeque<u32>,
+    around: Vec<Vec<FaceId>>,
+    queue: VecDeque<FaceId>,
     height: f64,
 }
 
 impl<'a> Surgery<'a> {
     /// Starts with `faces` and all faces that share a vertex with them.
-    fn new(mesh: &'a mut TriMesh, faces: Vec<u32>, height: f64) -> Self {
+    fn new(mesh: &'a mut TriMesh, faces: Vec<FaceId>, height: f64) -> Self {
         let mut around = vec![Vec::new(); mesh.vertices.len()];
-        for (f, face) in mesh.faces.iter().enumerate() {
-            face.iter().for_each(|v| around[*v as usize].push(f as u32));
+        for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
+            face.iter().for_each(|v| around[*v].push(f));
         }
-        let mut start: Vec<u32> = if faces.len() == mesh.faces.len() {
+        let mut start: Vec<FaceId> = if faces.len() == mesh.faces.len() {
             faces
         } else {
             faces
                 .iter()
-                .flat_map(|f| mesh.faces[*f as usize])
-                .flat_map(|v| around[v as usize].iter().copied())
+                .flat_map(|f| mesh.faces[*f])
+                .flat_map(|v| around[v].iter().copied())
                 .collect()
         };
         start.sort_unstable();
@@ -140,8 +140,8 @@ impl<'a> Surgery<'a> {
         // Collapses end by themselves and flips always raise the lower of two faces; the budget bounds the rest.
         let mut budget = 10 * self.queue.len() + 1000;
         while let Some(f) = self.queue.pop_front() {
-            let [a, b, _] = self.mesh.faces[f as usize];
-            if a == b || self.height_of(self.mesh.faces[f as usize]) >= self.height {
+            let [a, b, _] = self.mesh.faces[f];
+            if a == b || self.height_of(self.mesh.faces[f]) >= self.height {
                 continue;
             }
             if budget == 0 {
@@ -153,19 +153,19 @@ impl<'a> Surgery<'a> {
         }
     }
 
-    fn at(&self, v: u32) -> DVec3 {
-        self.mesh.vertices[v as usize]
+    fn at(&self, v: VertexId) -> DVec3 {
+        self.mesh.vertices[v]
     }
 
-    fn side(&self, face: [u32; 3], k: usize) -> f64 {
+    fn side(&self, face: [VertexId; 3], k: usize) -> f64 {
         self.at(face[k]).distance(self.at(face[(k + 1) % 3]))
     }
 
-    fn area_vector(&self, [a, b, c]: [u32; 3]) -> DVec3 {
+    fn area_vector(&self, [a, b, c]: [VertexId; 3]) -> DVec3 {
         (self.at(b) - self.at(a)).cross(self.at(c) - self.at(a))
     }
 
-    fn height_of(&self, face: [u32; 3]) -> f64 {
+    fn height_of(&self, face: [VertexId; 3]) -> f64 {
         let longest = (0..3).map(|k| self.side(face, k)).fold(0.0, f64::max);
         if longest == 0.0 {
             0.0
@@ -175,8 +175,8 @@ impl<'a> Surgery<'a> {
     }
 
     /// Collapses the shortest side, up to `times` the height, that allows it.
-    fn collapse_sides(&mut self, f: u32, times: f64) -> bool {
-        let face = self.mesh.faces[f as usize];
+    fn collapse_sides(&mut self, f: FaceId, times: f64) -> bool {
+        let face = self.mesh.faces[f];
         let mut sides = [0, 1, 2];
         sides.sort_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b)));
         for k in sides {
@@ -191,10 +191,10 @@ impl<'a> Surgery<'a> {
         false
     }
 
-    fn ring(&self, v: u32) -> Vec<u32> {
-        let mut ring: Vec<u32> = self.around[v as usize]
+    fn ring(&self, v: VertexId) -> Vec<VertexId> {
+        let mut ring: Vec<VertexId> = self.around[v]
             .iter()
-            .flat_map(|f| self.mesh.faces[*f as usize])
+            .flat_map(|f| self.mesh.faces[*f])
             .filter(|x| *x != v)
             .collect();
         ring.sort_unstable();
@@ -203,22 +203,22 @@ impl<'a> Surgery<'a> {
     }
 
     /// Moves `from` onto `to` if the surface stays a closed manifold and no face that is not a sliver turns over.
-    fn collapse(&mut self, from: u32, to: u32) -> bool {
+    fn collapse(&mut self, from: VertexId, to: VertexId) -> bool {
         let (ring, other) = (self.ring(from), self.ring(to));
         let common = ring
             .iter()
             .filter(|v| other.binary_search(v).is_ok())
             .count();
-        let faces = self.around[from as usize].clone();
-        let (dying, staying): (Vec<u32>, Vec<u32>) = faces
+        let faces = self.around[from].clone();
+        let (dying, staying): (Vec<FaceId>, Vec<FaceId>) = faces
             .iter()
-            .partition(|f| self.mesh.faces[**f as usize].contains(&to));
+            .partition(|f| self.mesh.faces[**f].contains(&to));
         if common != 2 || dying.len() != 2 {
             return false;
         }
-        let moved = |face: [u32; 3]| face.map(|v| if v == from { to } else { v });
-        let turns = |f: &u32| {
-            let face = self.mesh.faces[*f as usize];
+        let moved = |face: [VertexId; 3]| face.map(|v| if v == from { to } else { v });
+        let turns = |f: &FaceId| {
+            let face = self.mesh.faces[*f];
             let (before, after) = (self.area_vector(face), self.area_vector(moved(face)));
             self.height_of(face) > self.height
                 && before.dot(after) <= 0.5 * before.length() * after.length()
@@ -227,34 +227,34 @@ impl<'a> Surgery<'a> {
             return false;
         }
         for f in dying {
-            let gone = self.mesh.faces[f as usize];
-            self.mesh.faces[f as usize] = [to; 3];
+            let gone = self.mesh.faces[f];
+            self.mesh.faces[f] = [to; 3];
             gone.iter()
-                .for_each(|v| self.around[*v as usize].retain(|x| *x != f));
+                .for_each(|v| self.around[*v].retain(|x| *x != f));
         }
         for f in staying {
-            self.mesh.faces[f as usize] = moved(self.mesh.faces[f as usize]);
-            self.around[to as usize].push(f);
+            self.mesh.faces[f] = moved(self.mesh.faces[f]);
+            self.around[to].push(f);
             self.queue.push_back(f);
         }
-        self.around[from as usize].clear();
+        self.around[from].clear();
         true
     }
 
     /// Swaps the longest side of a cap for the other diagonal, if that raises the lower of the two faces and folds nothing.
-    fn flip(&mut self, f: u32) -> bool {
-        let face = self.mesh.faces[f as usize];
+    fn flip(&mut self, f: FaceId) -> bool {
+        let face = self.mesh.faces[f];
         let k = (0..3)
             .max_by(|a, b| self.side(face, *a).total_cmp(&self.side(face, *b)))
             .unwrap_or(0);
         let (a, b, v) = (face[k], face[(k + 1) % 3], face[(k + 2) % 3]);
-        let others: Vec<u32> = self.around[a as usize]
+        let others: Vec<FaceId> = self.around[a]
             .iter()
             .copied()
-            .filter(|x| *x != f && self.mesh.faces[*x as usize].contains(&b))
+            .filter(|x| *x != f && self.mesh.faces[*x].contains(&b))
             .collect();
         let [other] = others[..] else { return false };
-        let across = self.mesh.faces[other as usize];
+        let across = self.mesh.faces[other];
         let Some(d) = across.into_iter().find(|x| *x != a && *x != b) else {
             return false;
         };
@@ -272,12 +272,12 @@ impl<'a> Surgery<'a> {
         {
             return false;
         }
-        self.mesh.faces[f as usize] = first;
-        self.mesh.faces[other as usize] = second;
-        self.around[b as usize].retain(|x| *x != f);
-        self.around[a as usize].retain(|x| *x != other);
-        self.around[d as usize].push(f);
-        self.around[v as usize].push(other);
+        self.mesh.faces[f] = first;
+        self.mesh.faces[other] = second;
+        self.around[b].retain(|x| *x != f);
+        self.around[a].retain(|x| *x != other);
+        self.around[d].push(f);
+        self.around[v].push(other);
         self.queue.extend([f, other]);
         true
     }

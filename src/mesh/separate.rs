@@ -3,6 +3,7 @@
 //! After rounding a thin flap may lie a few micrometres through the face below it. Vertices of the flap are moved along the
 //! other face's normal to the side where most of it is. Works on the neighbourhood of the trouble only.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::boxes::Box3;
 use crate::mesh::intersect::self_intersections;
 use crate::mesh::tri_mesh::TriMesh;
@@ -18,7 +19,7 @@ const MOST: usize = 400;
 const AROUND_MM: f64 = 0.05;
 
 /// Separates cutting faces, given as `pairs`; whether none of them, nor any new one nearby, is left.
-pub fn separate(mesh: &mut TriMesh, pairs: &[[u32; 2]]) -> bool {
+pub fn separate(mesh: &mut TriMesh, pairs: &[[FaceId; 2]]) -> bool {
     if pairs.len() > MOST {
         return false;
     }
@@ -34,7 +35,7 @@ pub fn separate(mesh: &mut TriMesh, pairs: &[[u32; 2]]) -> bool {
                 return false;
             }
             for [a, b] in pairs {
-                near.push_apart(a as usize, b as usize, margin);
+                near.push_apart(a, b, margin);
             }
         }
     }
@@ -45,13 +46,13 @@ pub fn separate(mesh: &mut TriMesh, pairs: &[[u32; 2]]) -> bool {
 struct Neighbourhood {
     mesh: TriMesh,
     /// Vertices in the whole mesh.
-    vertices: Vec<u32>,
+    vertices: Vec<VertexId>,
 }
 
 impl Neighbourhood {
-    fn new(mesh: &TriMesh, pairs: &[[u32; 2]]) -> Self {
-        let grown = |f: u32| {
-            let Box3 { lo, hi } = Box3::of_face(mesh, f as usize);
+    fn new(mesh: &TriMesh, pairs: &[[FaceId; 2]]) -> Self {
+        let grown = |f: FaceId| {
+            let Box3 { lo, hi } = Box3::of_face(mesh, f);
             Box3 {
                 lo: lo - AROUND_MM,
                 hi: hi + AROUND_MM,
@@ -68,24 +69,21 @@ impl Neighbourhood {
                 }
             })
             .collect();
-        let meets = |f: &usize| {
+        let meets = |f: &FaceId| {
             let own = Box3::of_face(mesh, *f);
             trouble.iter().any(|t| own.overlaps(t))
         };
-        let faces: Vec<[u32; 3]> = (0..mesh.faces.len())
+        let faces: Vec<[VertexId; 3]> = FaceId::all(mesh.faces.len())
             .filter(meets)
             .map(|f| mesh.faces[f])
             .collect();
-        let mut vertices: Vec<u32> = faces.iter().flatten().copied().collect();
+        let mut vertices: Vec<VertexId> = faces.iter().flatten().copied().collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let local = |v: u32| vertices.partition_point(|x| *x < v) as u32;
+        let local = |v: VertexId| VertexId::new(vertices.partition_point(|x| *x < v));
         Self {
             mesh: TriMesh {
-                vertices: vertices
-                    .iter()
-                    .map(|v| mesh.vertices[*v as usize])
-                    .collect(),
+                vertices: vertices.iter().map(|v| mesh.vertices[*v]).collect(),
                 faces: faces.iter().map(|f| f.map(local)).collect(),
             },
             vertices,
@@ -93,28 +91,29 @@ impl Neighbourhood {
     }
 
     /// Moves the vertices of one face to one side of the other, whichever takes the smaller move.
-    fn push_apart(&mut self, a: usize, b: usize, margin: f64) {
+    fn push_apart(&mut self, a: FaceId, b: FaceId, margin: f64) {
         let moves = [self.moves(a, b, margin), self.moves(b, a, margin)];
-        let far = |m: &Vec<(u32, DVec3)>| m.iter().map(|(_, d)| d.length()).fold(0.0, f64::max);
+        let far =
+            |m: &Vec<(VertexId, DVec3)>| m.iter().map(|(_, d)| d.length()).fold(0.0, f64::max);
         let best = moves
             .iter()
             .filter(|m| !m.is_empty() && far(m) <= 3.0 * margin)
             .min_by(|x, y| far(x).total_cmp(&far(y)));
         for (v, by) in best.into_iter().flatten() {
-            let moved = self.mesh.vertices[*v as usize] + *by;
-            self.mesh.vertices[*v as usize] = moved.as_vec3().as_dvec3();
+            let moved = self.mesh.vertices[*v] + *by;
+            self.mesh.vertices[*v] = moved.as_vec3().as_dvec3();
         }
     }
 
     /// What moves the vertices of `face` that `floor` does not share at least `margin` to the side of the farthest of them.
-    fn moves(&self, floor: usize, face: usize, margin: f64) -> Vec<(u32, DVec3)> {
+    fn moves(&self, floor: FaceId, face: FaceId, margin: f64) -> Vec<(VertexId, DVec3)> {
         let normal = self.mesh.normal(floor);
         let foot = self.mesh.corners(floor)[0];
         let shared = &self.mesh.faces[floor];
-        let heights: Vec<(u32, f64)> = self.mesh.faces[face]
+        let heights: Vec<(VertexId, f64)> = self.mesh.faces[face]
             .iter()
             .filter(|v| !shared.contains(v))
-            .map(|v| (*v, (self.mesh.vertices[*v as usize] - foot).dot(normal)))
+            .map(|v| (*v, (self.mesh.vertices[*v] - foot).dot(normal)))
             .collect();
         let farthest = heights
             .iter()
@@ -130,7 +129,7 @@ impl Neighbourhood {
 
     fn write_back(&self, mesh: &mut TriMesh) {
         for (v, p) in self.vertices.iter().zip(&self.mesh.vertices) {
-            mesh.vertices[*v as usize] = *p;
+            mesh.vertices[*v] = *p;
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Takes a closed, consistently wound mesh without self-intersections; gives for each shell its volume and in how many
 //! others it lies, exactly (ray parity by signs of determinants, no tolerances).
 
+use crate::index::{ComponentId, FaceId};
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::mesh::intersect::{turn2, turn3};
 use crate::mesh::topology::face_components;
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 /// One closed surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shell {
-    pub first_face: u32,
+    pub first_face: FaceId,
     /// Cubic millimetres, negative for one that faces inwards (a cavity, or a part turned inside out).
     pub volume: f64,
     /// How often the other shells go round it: 0 in the open, 1 inside of a part, 0 inside of a part's cavity.
@@ -41,38 +42,38 @@ pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
 }
 
 /// The shells with their volumes.
-fn volumes(mesh: &TriMesh, component: &[u32]) -> Vec<Shell> {
+fn volumes(mesh: &TriMesh, component: &[ComponentId]) -> Vec<Shell> {
     let mut shells: Vec<Shell> = Vec::new();
-    for (face, &c) in component.iter().enumerate() {
-        if c as usize == shells.len() {
+    for (face, &c) in FaceId::all(component.len()).zip(component) {
+        if c.at() == shells.len() {
             shells.push(Shell {
-                first_face: face as u32,
+                first_face: face,
                 volume: 0.0,
                 winding: 0,
             });
         }
         // Measured from the shell's own corner: a part far from the origin keeps its digits.
-        let origin = mesh.corners(shells[c as usize].first_face as usize)[0];
+        let origin = mesh.corners(shells[c].first_face)[0];
         let [p, q, r] = mesh.corners(face).map(|v| v - origin);
-        shells[c as usize].volume += p.dot(q.cross(r)) / 6.0;
+        shells[c].volume += p.dot(q.cross(r)) / 6.0;
     }
     shells
 }
 
 /// Finds how the shells lie in one another.
-fn place(mesh: &TriMesh, component: &[u32], shells: &mut [Shell]) {
+fn place(mesh: &TriMesh, component: &[ComponentId], shells: &mut [Shell]) {
     if shells.len() > MAX_PLACED {
         for shell in shells {
             shell.winding = i32::from(shell.volume < 0.0);
         }
     } else if shells.len() > 1 {
-        let boxes: Vec<Box3> = (0..mesh.faces.len())
+        let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
             .map(|f| Box3::of_face(mesh, f))
             .collect();
         let tree = BoxTree::new(&boxes);
         shells.par_iter_mut().enumerate().for_each(|(own, shell)| {
-            let point = mesh.corners(shell.first_face as usize)[0];
-            shell.winding = winding(mesh, &tree, point, |face| component[face] != own as u32);
+            let point = mesh.corners(shell.first_face)[0];
+            shell.winding = winding(mesh, &tree, point, |face| component[face].at() != own);
         });
     }
 }
@@ -91,18 +92,18 @@ pub fn without_cavities(mesh: TriMesh) -> TriMesh {
 }
 
 /// Which shells lie inside of others with all their faces: one that touches another may seem to by a single point.
-fn buried(mesh: &TriMesh, component: &[u32]) -> Vec<bool> {
+fn buried(mesh: &TriMesh, component: &[ComponentId]) -> Vec<bool> {
     let mut buried: Vec<bool> = shells(mesh).iter().map(|s| s.winding > 0).collect();
     if buried.contains(&true) {
-        let boxes: Vec<Box3> = (0..mesh.faces.len())
+        let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
             .map(|f| Box3::of_face(mesh, f))
             .collect();
         let tree = BoxTree::new(&boxes);
-        for (face, own) in component.iter().enumerate() {
-            if buried[*own as usize] {
+        for (face, own) in FaceId::all(component.len()).zip(component) {
+            if buried[*own] {
                 let middle = mesh.corners(face).iter().sum::<DVec3>() / 3.0;
                 let around = winding(mesh, &tree, middle, |f| component[f] != *own);
-                buried[*own as usize] = around > 0;
+                buried[*own] = around > 0;
             }
         }
     }
@@ -110,27 +111,28 @@ fn buried(mesh: &TriMesh, component: &[u32]) -> Vec<bool> {
 }
 
 /// The mesh without the shells that are `unwanted`.
-fn without(mut mesh: TriMesh, component: &[u32], unwanted: &[bool]) -> TriMesh {
+fn without(mut mesh: TriMesh, component: &[ComponentId], unwanted: &[bool]) -> TriMesh {
     if !unwanted.contains(&true) {
         return mesh;
     }
     let mut component = component.iter();
-    let kept = |c: Option<&u32>| c.is_some_and(|c| !unwanted[*c as usize]);
+    let kept = |c: Option<&ComponentId>| c.is_some_and(|c| !unwanted[*c]);
     mesh.faces.retain(|_| kept(component.next()));
     drop_unreferenced(&mut mesh);
     mesh
 }
 
 /// How often the faces that `count` selects go round the point: the exits less the entries of its ray along +x.
-fn winding(mesh: &TriMesh, tree: &BoxTree, point: DVec3, count: impl Fn(usize) -> bool) -> i32 {
+fn winding(mesh: &TriMesh, tree: &BoxTree, point: DVec3, count: impl Fn(FaceId) -> bool) -> i32 {
     let ray = Box3 {
         lo: point,
         hi: DVec3::new(f64::INFINITY, point.y, point.z),
     };
     let mut total = 0;
     tree.overlapping(&ray, |face| {
-        if count(face as usize) {
-            total += crossing(&mesh.corners(face as usize), point);
+        let face = FaceId(face.0);
+        if count(face) {
+            total += crossing(&mesh.corners(face), point);
         }
         true
     });

@@ -7,7 +7,7 @@
 //! smaller than a tetrahedron), nor that nothing intersects: no face turns by more than [`TURN`], which has been enough on all
 //! models tried.
 
-use crate::mesh::topology::HalfEdge;
+use crate::index::VertexId;
 use crate::mesh::topology::{DisjointSets, Edges};
 use crate::mesh::tri_mesh::TriMesh;
 use alum::decimate::{Decimater, HasDecimation};
@@ -19,7 +19,7 @@ use glam::{DMat3, DVec3};
 pub struct Simplified {
     pub mesh: TriMesh,
     /// Rising.
-    pub vertices: Vec<u32>,
+    pub vertices: Vec<VertexId>,
 }
 
 /// Cosine of the largest angle by which a collapse may turn a face: at 0 folds come up on thin fins, at 0.7 coarse meshes get
@@ -43,7 +43,7 @@ pub fn simplified(mesh: &TriMesh, most: usize) -> Option<Simplified> {
     let points: Vec<DVec3> = surfaces.points(mesh).collect();
     let handles: Vec<VH> = halves.add_vertices(&points).ok()?.collect();
     for face in &surfaces.faces {
-        let [a, b, c] = face.map(|v| handles[v as usize]);
+        let [a, b, c] = face.map(|v| handles[v]);
         halves.add_tri_face(a, b, c).ok()?;
     }
     let mut by_error = ByError::new(&surfaces, points);
@@ -53,35 +53,36 @@ pub fn simplified(mesh: &TriMesh, most: usize) -> Option<Simplified> {
 
 /// The mesh as surfaces that touch nowhere: a vertex for every fan of faces that hang together.
 struct Surfaces {
-    faces: Vec<[u32; 3]>,
+    faces: Vec<[VertexId; 3]>,
     /// The mesh's vertex of each.
-    vertex: Vec<u32>,
+    vertex: Vec<VertexId>,
     /// Those of which the mesh's vertex has several, or that lie on an edge of more than two faces.
     touching: Vec<bool>,
 }
 
 impl Surfaces {
     fn new(mesh: &TriMesh) -> Self {
-        let corner = |h: &HalfEdge, end: u8| 3 * h.face + u32::from((h.corner + end) % 3);
         let mut fans = DisjointSets::new(3 * mesh.faces.len());
         for sides in Edges::new(mesh).iter() {
             if let [a, b] = sides
                 && a.forward != b.forward
             {
-                fans.join(corner(a, 0), corner(b, 1));
-                fans.join(corner(a, 1), corner(b, 0));
+                fans.join(a.end(0).0, b.end(1).0);
+                fans.join(a.end(1).0, b.end(0).0);
             }
         }
-        let number = fans.numbers().1;
-        let faces: Vec<[u32; 3]> = number.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
-        let count = number.iter().max().map_or(0, |n| *n as usize + 1);
-        let mut vertex = vec![0; count];
+        let (count, number) = fans.numbers();
+        let faces: Vec<[VertexId; 3]> = number
+            .chunks_exact(3)
+            .map(|c| [c[0], c[1], c[2]].map(VertexId))
+            .collect();
+        let mut vertex = vec![VertexId(0); count];
         for (own, face) in faces.iter().flatten().zip(mesh.faces.iter().flatten()) {
-            vertex[*own as usize] = *face;
+            vertex[*own] = *face;
         }
         let mut fans_at = vec![0; mesh.vertices.len()];
-        vertex.iter().for_each(|v| fans_at[*v as usize] += 1);
-        let touching = vertex.iter().map(|v| fans_at[*v as usize] > 1).collect();
+        vertex.iter().for_each(|v| fans_at[*v] += 1);
+        let touching = vertex.iter().map(|v| fans_at[*v] > 1).collect();
         Self {
             faces,
             vertex,
@@ -93,38 +94,33 @@ impl Surfaces {
     fn points(&self, mesh: &TriMesh) -> impl Iterator<Item = DVec3> {
         let (lo, hi) = mesh.bounds().unwrap_or_default();
         let middle = lo.midpoint(hi);
-        self.vertex
-            .iter()
-            .map(move |v| mesh.vertices[*v as usize] - middle)
+        self.vertex.iter().map(move |v| mesh.vertices[*v] - middle)
     }
 
     /// What is left when every vertex has gone `into` another, or stayed itself: the faces that still have three corners.
-    fn left(&self, mesh: &TriMesh, into: &[u32]) -> Simplified {
-        let end = |mut v: u32| {
-            while into[v as usize] != v {
-                v = into[v as usize];
+    fn left(&self, mesh: &TriMesh, into: &[VertexId]) -> Simplified {
+        let end = |mut v: VertexId| {
+            while into[v] != v {
+                v = into[v];
             }
-            self.vertex[v as usize]
+            self.vertex[v]
         };
         let faces = self.faces.iter().map(|f| f.map(end));
-        let faces: Vec<[u32; 3]> = faces
+        let faces: Vec<[VertexId; 3]> = faces
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
-        let mut vertices: Vec<u32> = faces.iter().flatten().copied().collect();
+        let mut vertices: Vec<VertexId> = faces.iter().flatten().copied().collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let mut number = vec![0; mesh.vertices.len()];
-        for (i, v) in vertices.iter().enumerate() {
-            number[*v as usize] = i as u32;
+        let mut number = vec![VertexId(0); mesh.vertices.len()];
+        for (new, v) in VertexId::all(vertices.len()).zip(&vertices) {
+            number[*v] = new;
         }
-        let points = vertices.iter().map(|v| mesh.vertices[*v as usize]);
+        let points = vertices.iter().map(|v| mesh.vertices[*v]);
         Simplified {
             mesh: TriMesh {
                 vertices: points.collect(),
-                faces: faces
-                    .iter()
-                    .map(|f| f.map(|v| number[v as usize]))
-                    .collect(),
+                faces: faces.iter().map(|f| f.map(|v| number[v])).collect(),
             },
             vertices,
         }
@@ -152,6 +148,10 @@ impl Adaptor<3> for Points {
 }
 
 type Halves = PolyMeshT<3, Points>;
+
+fn number(v: VH) -> VertexId {
+    VertexId(v.index())
+}
 
 /// Sum of weighted squared distances from planes: `p A p - 2 b p + c`.
 #[derive(Clone, Copy, Default)]
@@ -197,17 +197,17 @@ struct ByError<'a> {
     points: Vec<DVec3>,
     quadrics: Vec<Quadric>,
     /// Itself: it is still there.
-    into: Vec<u32>,
+    into: Vec<VertexId>,
 }
 
 impl<'a> ByError<'a> {
     fn new(surfaces: &'a Surfaces, points: Vec<DVec3>) -> Self {
         let mut quadrics = vec![Quadric::NONE; points.len()];
-        let mut add = |v: u32, q: Quadric| quadrics[v as usize] = quadrics[v as usize].plus(q);
-        let area = |face: [u32; 3]| normal(face.map(|v| points[v as usize]));
+        let mut add = |v: VertexId, q: Quadric| quadrics[v] = quadrics[v].plus(q);
+        let area = |face: [VertexId; 3]| normal(face.map(|v| points[v]));
         for face in &surfaces.faces {
             let normal = area(*face);
-            let at = points[face[0] as usize];
+            let at = points[face[0]];
             let own = Quadric::plane(normal.normalize_or_zero(), at, normal.length() / 2.0);
             face.iter().for_each(|v| add(*v, own));
         }
@@ -217,22 +217,22 @@ impl<'a> ByError<'a> {
         };
         for sides in Edges::new(&mesh).iter().filter(|sides| sides.len() == 1) {
             let ends = [sides[0].low, sides[0].high];
-            let [a, b] = ends.map(|v| points[v as usize]);
-            let across = area(surfaces.faces[sides[0].face as usize]).cross(b - a);
+            let [a, b] = ends.map(|v| points[v]);
+            let across = area(surfaces.faces[sides[0].face]).cross(b - a);
             let weight = BORDER * a.distance_squared(b);
             let own = Quadric::plane(across.normalize_or_zero(), a, weight);
             ends.iter().for_each(|v| add(*v, own));
         }
         Self {
             surfaces,
-            into: (0..points.len() as u32).collect(),
+            into: VertexId::all(points.len()).collect(),
             points,
             quadrics,
         }
     }
 
     fn sum(&self, from: VH, to: VH) -> Quadric {
-        let [a, b] = [from, to].map(|v| self.quadrics[v.index() as usize]);
+        let [a, b] = [from, to].map(|v| self.quadrics[number(v)]);
         a.plus(b)
     }
 
@@ -246,7 +246,7 @@ impl<'a> ByError<'a> {
             if [a, b, c].contains(&to) {
                 return true;
             }
-            let at = |v: VH| self.points[v.index() as usize];
+            let at = |v: VH| self.points[number(v)];
             let before = [a, b, c].map(at);
             let after = [a, b, c].map(|v| at(if v == from { to } else { v }));
             let [was, becomes] = [before, after].map(|p| normal(p).normalize_or_zero());
@@ -272,21 +272,21 @@ impl Decimater<Halves> for ByError<'_> {
     fn collapse_cost(&self, mesh: &Halves, h: HH) -> Option<f64> {
         let (from, to) = (h.tail(mesh), h.head(mesh));
         let along_border = h.is_boundary(mesh) || h.opposite().is_boundary(mesh);
-        let held = self.surfaces.touching[from.index() as usize]
-            || (from.is_boundary(mesh) && !along_border);
+        let held =
+            self.surfaces.touching[number(from)] || (from.is_boundary(mesh) && !along_border);
         // A tetrahedron would become flat; it has three edges at every vertex.
         let last = !from.is_boundary(mesh) && mesh.vv_ccw_iter(from).count() <= 3;
         if held || last || !self.stays_sound(mesh, from, to) {
             return None;
         }
-        let [p, q] = [from, to].map(|v| self.points[v.index() as usize]);
+        let [p, q] = [from, to].map(|v| self.points[number(v)]);
         Some(self.sum(from, to).at(q) + SHORTEST * p.distance_squared(q).powi(2))
     }
 
     fn before_collapse(&mut self, mesh: &Halves, h: HH) -> Result<(), Error> {
         let (from, to) = (h.tail(mesh), h.head(mesh));
-        self.quadrics[to.index() as usize] = self.sum(from, to);
-        self.into[from.index() as usize] = to.index();
+        self.quadrics[number(to)] = self.sum(from, to);
+        self.into[number(from)] = number(to);
         Ok(())
     }
 

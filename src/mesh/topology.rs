@@ -3,6 +3,7 @@
 //! Takes any indexed mesh whose indices are in range; gives answers that depend on face order only (sorted arrays,
 //! no hash order). Knows nothing of positions: weld first if equal positions are to count as one vertex.
 
+use crate::index::{ComponentId, FaceId, VertexId, indices};
 use crate::mesh::tri_mesh::TriMesh;
 use rayon::slice::ParallelSliceMut;
 
@@ -10,13 +11,45 @@ use rayon::slice::ParallelSliceMut;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HalfEdge {
     /// The smaller and the larger of its two vertex indices.
-    pub low: u32,
-    pub high: u32,
-    pub face: u32,
+    pub low: VertexId,
+    pub high: VertexId,
+    pub face: FaceId,
     /// Corner of the face it starts at, 0 to 2.
     pub corner: u8,
     /// Whether it runs from `low` to `high`.
     pub forward: bool,
+}
+
+indices! {
+    /// A corner of a face: three a face, in their order.
+    FaceCorner
+}
+
+impl FaceCorner {
+    /// Corner `k` of a face.
+    pub const fn of(face: FaceId, k: usize) -> Self {
+        Self(3 * face.0 + (k % 3) as u32)
+    }
+
+    /// The vertex there.
+    pub fn vertex(self, mesh: &TriMesh) -> VertexId {
+        mesh.faces[self.face()][self.k()]
+    }
+
+    pub const fn face(self) -> FaceId {
+        FaceId(self.0 / 3)
+    }
+
+    pub const fn k(self) -> usize {
+        self.at() % 3
+    }
+}
+
+impl HalfEdge {
+    /// Where it starts (0) and ends (1).
+    pub fn end(&self, end: usize) -> FaceCorner {
+        FaceCorner::of(self.face, usize::from(self.corner) + end)
+    }
 }
 
 /// All half-edges of a mesh, those of the same edge next to each other in face order.
@@ -29,14 +62,14 @@ pub struct Edges {
 impl Edges {
     pub fn new(mesh: &TriMesh) -> Self {
         let mut half = Vec::with_capacity(3 * mesh.faces.len());
-        for (face, v) in mesh.faces.iter().enumerate() {
+        for (face, v) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
             for corner in 0..3 {
                 let (from, to) = (v[corner], v[(corner + 1) % 3]);
                 if from != to {
                     half.push(HalfEdge {
                         low: from.min(to),
                         high: from.max(to),
-                        face: face as u32,
+                        face,
                         corner: corner as u8,
                         forward: from < to,
                     });
@@ -56,29 +89,29 @@ impl Edges {
 
 /// For each face the number of its component, components being joined by shared edges (also edges of more than two
 /// faces) and numbered by their first face.
-pub fn face_components(mesh: &TriMesh) -> Vec<u32> {
+pub fn face_components(mesh: &TriMesh) -> Vec<ComponentId> {
     face_components_of(&Edges::new(mesh), mesh.faces.len())
 }
 
 /// As [`face_components`], for edges already at hand.
-pub fn face_components_of(edges: &Edges, faces: usize) -> Vec<u32> {
+pub fn face_components_of(edges: &Edges, faces: usize) -> Vec<ComponentId> {
     let mut sets = DisjointSets::new(faces);
     for edge in edges.iter() {
         for pair in edge.windows(2) {
-            sets.join(pair[0].face, pair[1].face);
+            sets.join(pair[0].face.0, pair[1].face.0);
         }
     }
-    sets.numbers().1
+    sets.numbers().1.into_iter().map(ComponentId).collect()
 }
 
 /// The neighbour of each face over its edge `k` (from corner `k` to corner `k + 1`); `None` where the edge is open or
 /// has more than two faces. Winding plays no part.
-pub fn face_neighbours(mesh: &TriMesh) -> Vec<[Option<u32>; 3]> {
+pub fn face_neighbours(mesh: &TriMesh) -> Vec<[Option<FaceId>; 3]> {
     let mut neighbours = vec![[None; 3]; mesh.faces.len()];
     for edge in Edges::new(mesh).iter() {
         if let [a, b] = edge {
-            neighbours[a.face as usize][a.corner as usize] = Some(b.face);
-            neighbours[b.face as usize][b.corner as usize] = Some(a.face);
+            neighbours[a.face][usize::from(a.corner)] = Some(b.face);
+            neighbours[b.face][usize::from(b.corner)] = Some(a.face);
         }
     }
     neighbours
@@ -93,20 +126,21 @@ pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<u32>) {
     let mut sets = DisjointSets::new(mesh.vertices.len());
     let mut used = vec![false; mesh.vertices.len()];
     for &[a, b, c] in &mesh.faces {
-        sets.join(a, b);
-        sets.join(b, c);
+        sets.join(a.0, b.0);
+        sets.join(b.0, c.0);
         for v in [a, b, c] {
-            used[v as usize] = true;
+            used[v] = true;
         }
     }
     let mut number_of_root = vec![NO_PART; used.len()];
     let mut parts = 0;
-    let part_of = (0..used.len())
+    let part_of = VertexId::all(used.len())
         .map(|v| {
             if !used[v] {
                 return NO_PART;
             }
-            let number = &mut number_of_root[sets.root(v as u32) as usize];
+            let root = VertexId(sets.root(v.0));
+            let number = &mut number_of_root[root];
             if *number == NO_PART {
                 *number = parts;
                 parts += 1;
@@ -118,11 +152,11 @@ pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<u32>) {
 }
 
 /// Vertices at which faces meet without being joined by edges (two cones tip to tip), rising.
-pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<u32> {
+pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<VertexId> {
     let mut sets = DisjointSets::new(3 * mesh.faces.len());
     let corner_at = |h: &HalfEdge, low: bool| {
         let start = h.forward == low;
-        3 * h.face + (u32::from(h.corner) + u32::from(!start)) % 3
+        h.end(usize::from(!start)).0
     };
     for edge in edges.iter() {
         for pair in edge.windows(2) {
@@ -131,20 +165,16 @@ pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<u32> {
             }
         }
     }
-    const NONE: u32 = u32::MAX;
-    let mut fan_of_vertex = vec![NONE; mesh.vertices.len()];
+    let mut fan_of_vertex = vec![None; mesh.vertices.len()];
     let mut bowties = Vec::new();
-    for (face, vertices) in mesh.faces.iter().enumerate() {
-        for (corner, &v) in vertices.iter().enumerate() {
+    for (face, vertices) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
+        for (k, &v) in vertices.iter().enumerate() {
             // A face that repeats an index has two corners there; that is reported as such, not as a bowtie.
             if vertices.iter().filter(|&&w| w == v).count() > 1 {
                 continue;
             }
-            let fan = sets.root((3 * face + corner) as u32);
-            let seen = &mut fan_of_vertex[v as usize];
-            if *seen == NONE {
-                *seen = fan;
-            } else if *seen != fan {
+            let fan = sets.root(FaceCorner::of(face, k).0);
+            if *fan_of_vertex[v].get_or_insert(fan) != fan {
                 bowties.push(v);
             }
         }
@@ -154,38 +184,44 @@ pub fn bowtie_vertices(mesh: &TriMesh, edges: &Edges) -> Vec<u32> {
     bowties
 }
 
-/// Union-find; the root of a set is its smallest member.
+indices! {
+    /// A member of a set.
+    MemberId
+}
+
+/// Union-find over whatever has numbers; the root of a set is its smallest member.
 pub struct DisjointSets {
-    parent: Vec<u32>,
+    parent: Vec<MemberId>,
 }
 
 impl DisjointSets {
     pub fn new(len: usize) -> Self {
         Self {
-            parent: (0..len as u32).collect(),
+            parent: MemberId::all(len).collect(),
         }
     }
 
-    pub fn root(&mut self, mut x: u32) -> u32 {
-        while self.parent[x as usize] != x {
-            let up = self.parent[self.parent[x as usize] as usize];
-            self.parent[x as usize] = up;
+    pub fn root(&mut self, x: u32) -> u32 {
+        let mut x = MemberId(x);
+        while self.parent[x] != x {
+            let up = self.parent[self.parent[x]];
+            self.parent[x] = up;
             x = up;
         }
-        x
+        x.0
     }
 
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b) as usize] = a.min(b);
+        self.parent[MemberId(a.max(b))] = MemberId(a.min(b));
     }
 
     /// The number of sets, and the number of the set of each member; sets are numbered by their smallest member.
     pub fn numbers(&mut self) -> (usize, Vec<u32>) {
         let mut numbers = vec![0; self.parent.len()];
         let mut count = 0;
-        for x in 0..self.parent.len() {
-            let root = self.root(x as u32) as usize;
+        for x in MemberId::all(self.parent.len()) {
+            let root = MemberId(self.root(x.0));
             if root == x {
                 numbers[x] = count;
                 count += 1;
@@ -198,10 +234,15 @@ impl DisjointSets {
 
     /// The members of each set, rising; sets by their smallest member.
     pub fn members(&mut self) -> Vec<Vec<u32>> {
-        let (count, numbers) = self.numbers();
-        let mut sets = vec![Vec::new(); count];
-        for (member, set) in numbers.iter().enumerate() {
-            sets[*set as usize].push(member as u32);
+        let mut set_of_root = vec![None; self.parent.len()];
+        let mut sets: Vec<Vec<u32>> = Vec::new();
+        for x in MemberId::all(self.parent.len()) {
+            let root = MemberId(self.root(x.0));
+            let set = *set_of_root[root].get_or_insert_with(|| {
+                sets.push(Vec::new());
+                sets.len() - 1
+            });
+            sets[set].push(x.0);
         }
         sets
     }

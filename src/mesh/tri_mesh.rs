@@ -1,5 +1,6 @@
 //! The mesh that everything else here is about.
 
+use crate::index::{FaceId, VertexId};
 use glam::{DMat4, DVec3};
 
 /// An indexed triangle mesh. Faces turn counter-clockwise as seen from outside.
@@ -11,22 +12,31 @@ pub struct TriMesh {
     /// Positions in millimetres.
     pub vertices: Vec<DVec3>,
     /// Vertex indices, three a face.
-    pub faces: Vec<[u32; 3]>,
+    pub faces: Vec<[VertexId; 3]>,
 }
 
 impl TriMesh {
-    pub fn corners(&self, face: usize) -> [DVec3; 3] {
-        self.faces[face].map(|v| self.vertices[v as usize])
+    /// From plain numbers, as files and tables have them.
+    pub fn new(vertices: Vec<DVec3>, faces: impl IntoIterator<Item = [u32; 3]>) -> Self {
+        let faces = faces.into_iter().map(|f| f.map(VertexId));
+        Self {
+            vertices,
+            faces: faces.collect(),
+        }
+    }
+
+    pub fn corners(&self, face: FaceId) -> [DVec3; 3] {
+        self.faces[face].map(|v| self.vertices[v])
     }
 
     /// Twice the area times the unit normal.
-    pub fn area_vector(&self, face: usize) -> DVec3 {
+    pub fn area_vector(&self, face: FaceId) -> DVec3 {
         let [a, b, c] = self.corners(face);
         (b - a).cross(c - a)
     }
 
     /// Unit normal; zero for a degenerate face.
-    pub fn normal(&self, face: usize) -> DVec3 {
+    pub fn normal(&self, face: FaceId) -> DVec3 {
         self.area_vector(face).normalize_or_zero()
     }
 
@@ -37,12 +47,12 @@ impl TriMesh {
             let [a, b, c] = self.corners(f).map(|v| v - origin);
             a.dot(b.cross(c))
         };
-        (0..self.faces.len()).map(tetrahedron).sum::<f64>() / 6.0
+        FaceId::all(self.faces.len()).map(tetrahedron).sum::<f64>() / 6.0
     }
 
     /// Surface area in square millimetres.
     pub fn area(&self) -> f64 {
-        (0..self.faces.len())
+        FaceId::all(self.faces.len())
             .map(|f| self.area_vector(f).length() / 2.0)
             .sum()
     }
@@ -75,9 +85,13 @@ impl TriMesh {
 
     /// Adds the faces of `other` with vertices of their own.
     pub fn append(&mut self, other: &Self) {
-        let offset = self.vertices.len() as u32;
+        let offset = self.vertices.len();
         self.vertices.extend_from_slice(&other.vertices);
-        self.faces
-            .extend(other.faces.iter().map(|f| f.map(|v| v + offset)));
+        self.faces.extend(
+            other
+                .faces
+                .iter()
+                .map(|f| f.map(|v| VertexId::new(v.at() + offset))),
+        );
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Every function says what it changed; none changes the order of what it keeps.
 
+use crate::index::{FaceId, VertexId};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
@@ -12,7 +13,7 @@ use std::collections::HashMap;
 pub struct Welded {
     pub mesh: TriMesh,
     /// The new index of each old vertex.
-    pub vertex_of: Vec<u32>,
+    pub vertex_of: Vec<VertexId>,
     /// How many vertices went away.
     pub merged: usize,
 }
@@ -33,19 +34,15 @@ pub fn weld_some(mesh: &TriMesh, tolerance: f64, eligible: &[bool]) -> Welded {
     };
     let mut vertex_of = Vec::with_capacity(leader.len());
     let mut vertices = Vec::new();
-    for (v, &first) in leader.iter().enumerate() {
-        if first as usize == v {
-            vertex_of.push(vertices.len() as u32);
+    for (v, &first) in VertexId::all(leader.len()).zip(&leader) {
+        if first == v {
+            vertex_of.push(VertexId::new(vertices.len()));
             vertices.push(mesh.vertices[v]);
         } else {
-            vertex_of.push(vertex_of[first as usize]);
+            vertex_of.push(vertex_of[first]);
         }
     }
-    let faces = mesh
-        .faces
-        .iter()
-        .map(|f| f.map(|v| vertex_of[v as usize]))
-        .collect();
+    let faces = mesh.faces.iter().map(|f| f.map(|v| vertex_of[v])).collect();
     let merged = mesh.vertices.len() - vertices.len();
     let mesh = TriMesh { vertices, faces };
     Welded {
@@ -56,24 +53,24 @@ pub fn weld_some(mesh: &TriMesh, tolerance: f64, eligible: &[bool]) -> Welded {
 }
 
 /// For each vertex the first eligible one with the same coordinates.
-fn equal_leaders(vertices: &[DVec3], eligible: &[bool]) -> Vec<u32> {
+fn equal_leaders(vertices: &[DVec3], eligible: &[bool]) -> Vec<VertexId> {
     let key = |v: &DVec3| v.to_array().map(|x| (x + 0.0).to_bits());
-    let mut keyed: Vec<([u64; 3], u32)> = (0..vertices.len())
+    let mut keyed: Vec<([u64; 3], VertexId)> = VertexId::all(vertices.len())
         .filter(|&v| eligible[v])
-        .map(|v| (key(&vertices[v]), v as u32))
+        .map(|v| (key(&vertices[v]), v))
         .collect();
     keyed.par_sort_unstable();
-    let mut leader: Vec<u32> = (0..vertices.len() as u32).collect();
+    let mut leader: Vec<VertexId> = VertexId::all(vertices.len()).collect();
     for same in keyed.chunk_by(|a, b| a.0 == b.0) {
         for (_, v) in same {
-            leader[*v as usize] = same[0].1;
+            leader[*v] = same[0].1;
         }
     }
     leader
 }
 
 /// For each eligible vertex the nearest cluster leader within the tolerance, or itself as a new leader.
-fn near_leaders(vertices: &[DVec3], tolerance: f64, eligible: &[bool]) -> Vec<u32> {
+fn near_leaders(vertices: &[DVec3], tolerance: f64, eligible: &[bool]) -> Vec<VertexId> {
     // From the corner of the cloud, so that cell numbers far from the origin do not run out of an i64.
     let corner = vertices
         .iter()
@@ -87,20 +84,20 @@ fn near_leaders(vertices: &[DVec3], tolerance: f64, eligible: &[bool]) -> Vec<u3
             .map(|x| x as i64)
     };
     // Looked up only, never iterated: no hash order reaches the result.
-    let mut leaders_in: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    let mut leader: Vec<u32> = (0..vertices.len() as u32).collect();
-    for v in (0..vertices.len()).filter(|&v| eligible[v]) {
+    let mut leaders_in: HashMap<[i64; 3], Vec<VertexId>> = HashMap::new();
+    let mut leader: Vec<VertexId> = VertexId::all(vertices.len()).collect();
+    for v in VertexId::all(vertices.len()).filter(|&v| eligible[v]) {
         let p = vertices[v];
         let home = cell(p);
         let nearest = neighbour_cells(home)
             .filter_map(|c| leaders_in.get(&c))
             .flatten()
-            .map(|&l| (vertices[l as usize].distance(p), l))
+            .map(|&l| (vertices[l].distance(p), l))
             .filter(|(d, _)| *d <= tolerance)
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         match nearest {
             Some((_, l)) => leader[v] = l,
-            None => leaders_in.entry(home).or_default().push(v as u32),
+            None => leaders_in.entry(home).or_default().push(v),
         }
     }
     leader
@@ -130,21 +127,21 @@ pub fn drop_unreferenced(mesh: &mut TriMesh) -> usize {
 }
 
 /// Drops vertices that no face uses; gives the new index of each old vertex that stays.
-pub fn keep_referenced(mesh: &mut TriMesh) -> Vec<Option<u32>> {
+pub fn keep_referenced(mesh: &mut TriMesh) -> Vec<Option<VertexId>> {
     let mut used = vec![false; mesh.vertices.len()];
     for v in mesh.faces.iter().flatten() {
-        used[*v as usize] = true;
+        used[*v] = true;
     }
     let mut next = 0;
     let number = |used: &bool| {
         next += u32::from(*used);
-        used.then(|| next - 1)
+        used.then(|| VertexId(next - 1))
     };
-    let new_index: Vec<Option<u32>> = used.iter().map(number).collect();
+    let new_index: Vec<Option<VertexId>> = used.iter().map(number).collect();
     let mut keep = used.iter();
     mesh.vertices.retain(|_| keep.next() == Some(&true));
     for face in &mut mesh.faces {
-        *face = face.map(|v| new_index[v as usize].unwrap_or_default());
+        *face = face.map(|v| new_index[v].expect("every corner is used"));
     }
     new_index
 }
@@ -155,7 +152,7 @@ pub fn drop_duplicates(mesh: &mut TriMesh) -> usize {
     let mut keep = vec![true; mesh.faces.len()];
     for group in &groups {
         for &face in &group[1..] {
-            keep[face as usize] = false;
+            keep[face] = false;
         }
     }
     retain_faces(mesh, &keep)
@@ -170,15 +167,12 @@ pub fn retain_faces(mesh: &mut TriMesh, keep: &[bool]) -> usize {
 }
 
 /// Sets of two or more faces with the same three vertices, faces rising.
-pub fn duplicate_groups(mesh: &TriMesh) -> Vec<Vec<u32>> {
-    let mut keyed: Vec<([u32; 3], u32)> = mesh
-        .faces
-        .iter()
-        .enumerate()
-        .map(|(face, v)| {
-            let mut key = *v;
+pub fn duplicate_groups(mesh: &TriMesh) -> Vec<Vec<FaceId>> {
+    let mut keyed: Vec<([VertexId; 3], FaceId)> = FaceId::all(mesh.faces.len())
+        .map(|f| {
+            let mut key = mesh.faces[f];
             key.sort_unstable();
-            (key, face as u32)
+            (key, f)
         })
         .collect();
     keyed.par_sort_unstable();
@@ -229,19 +223,18 @@ pub(crate) fn rounded_to_f32(mesh: &TriMesh) -> TriMesh {
 pub fn cancel_folds(mesh: &mut TriMesh) -> usize {
     let mut keep = vec![true; mesh.faces.len()];
     for group in duplicate_groups(mesh) {
-        let (even, odd): (Vec<u32>, Vec<u32>) = group
-            .iter()
-            .partition(|f| is_even(mesh.faces[**f as usize]));
+        let (even, odd): (Vec<FaceId>, Vec<FaceId>) =
+            group.iter().partition(|f| is_even(mesh.faces[**f]));
         for (a, b) in even.into_iter().zip(odd) {
-            keep[a as usize] = false;
-            keep[b as usize] = false;
+            keep[a] = false;
+            keep[b] = false;
         }
     }
     retain_faces(mesh, &keep)
 }
 
 /// Whether the indices are a rotation of their rising order.
-fn is_even([a, b, c]: [u32; 3]) -> bool {
+fn is_even([a, b, c]: [VertexId; 3]) -> bool {
     let falls = [a > b, b > c, c > a];
     falls.iter().filter(|f| **f).count() == 1
 }

@@ -118,7 +118,7 @@ impl<'a> Layers<'a> {
         let slots: Vec<usize> = groups.groups.iter().map(|g| slot(g.support)).collect();
         let mut used = vec![false; target.mesh.vertices.len()];
         let corners = target.mesh.faces.iter().flatten();
-        corners.for_each(|v| used[*v as usize] = true);
+        corners.for_each(|v| used[*v] = true);
         Self {
             blocks: blocks(target, groups, &slots, &used),
             supports: carriers.len(),
@@ -146,7 +146,7 @@ impl<'a> Layers<'a> {
         }
         for face in &self.target.mesh.faces {
             for k in 0..3 {
-                let (i, j) = (face[k] as usize, face[(k + 1) % 3] as usize);
+                let (i, j) = (face[k].at(), face[(k + 1) % 3].at());
                 quadratic.difference(i, j, SPAN);
             }
         }
@@ -180,7 +180,8 @@ impl<'a> Layers<'a> {
 
     /// `sum of w_k y_k - inverse * nu` in terms of what `y` and `nu` differ from 1, in units, and its value where they are 1.
     fn line(&self, bound: &Bound, inverse: f64) -> (Vec<(usize, f64)>, f64) {
-        let mut terms: Vec<(usize, f64)> = bound.anchor.terms().collect();
+        let terms = bound.anchor.terms().map(|(v, w)| (v.at(), w));
+        let mut terms: Vec<(usize, f64)> = terms.collect();
         terms.push((self.used.len() + self.slot(bound), -inverse));
         (terms, (1.0 - inverse) / self.unit)
     }
@@ -238,12 +239,12 @@ fn blocks(target: &Target, groups: &Groups, slots: &[usize], used: &[bool]) -> V
     let supports = slots.iter().map(|s| s + 1).max().unwrap_or(0);
     let mut sets = DisjointSets::new(n + supports);
     for [a, b, c] in &target.mesh.faces {
-        sets.join(*a, *b);
-        sets.join(*b, *c);
+        sets.join(a.0, b.0);
+        sets.join(b.0, c.0);
     }
     for bound in &groups.bounds {
         let support = n + slots[bound.group];
-        sets.join(bound.anchor.vertices[0], support as u32);
+        sets.join(bound.anchor.vertices[0].0, support as u32);
     }
     let vertices = |set: Vec<u32>| -> Vec<usize> {
         let all = set.into_iter().map(|i| i as usize);

@@ -17,7 +17,7 @@ use super::keeping::{FirstRows, Keeping};
 use super::ordering::Order;
 use super::program::RowKind;
 use crate::groups::{Anchor, Groups};
-use crate::index::GroupId;
+use crate::index::{GroupId, VertexId};
 
 /// Orders of sheets that hardly part in the model hold to this share of their limit: less than the gap they keep in the result.
 const ORDER_SHARE: f64 = 0.01;
@@ -155,15 +155,15 @@ fn orders(orders: &[Order]) -> impl Iterator<Item = Condition> {
 }
 
 /// The tangent of `ln tau` at the depths `s`, as `sum of coefficient * x + constant`: its coefficients have the sum 1.
-pub fn log_tangent(anchor: &Anchor, s: &[f64]) -> (Vec<(usize, f64)>, f64) {
+pub fn log_tangent(anchor: &Anchor, s: &[f64]) -> (Vec<(VertexId, f64)>, f64) {
     let tau = anchor.relative_depth(s);
-    let terms: Vec<(usize, f64)> = anchor.terms().map(|(v, w)| (v, w * tau / s[v])).collect();
+    let terms: Vec<(VertexId, f64)> = anchor.terms().map(|(v, w)| (v, w * tau / s[v])).collect();
     let at: f64 = terms.iter().map(|(v, p)| p * s[*v].ln()).sum();
     (terms, tau.ln() - at)
 }
 
 /// The tangent of `tau` at the depths `s`, as `sum of coefficient * s`: it passes through 0.
-pub fn plain_tangent(anchor: &Anchor, s: &[f64]) -> Vec<(usize, f64)> {
+pub fn plain_tangent(anchor: &Anchor, s: &[f64]) -> Vec<(VertexId, f64)> {
     let tau = anchor.relative_depth(s);
     let terms = anchor.terms();
     terms

@@ -17,6 +17,7 @@ use super::energy::GradientOptions;
 use super::program::{Program, Quadratic};
 use super::solve::{SolveError, solve};
 use crate::groups::anchor;
+use crate::index::{FaceId, VertexId};
 use crate::laplacian::FaceGeometry;
 use crate::mesh::TriMesh;
 use crate::sight::Sight;
@@ -61,7 +62,7 @@ struct WantedChange {
     sides: Vec<FaceSide>,
     jumps: Vec<Jump>,
     /// Edges of unseen faces.
-    unseen: Vec<[usize; 2]>,
+    unseen: Vec<[VertexId; 2]>,
 }
 
 /// A point where sheets meet: `weight * (sum of coefficient * x - step)^2`.
@@ -72,7 +73,7 @@ struct Jump {
 }
 
 struct FaceSide {
-    ends: [usize; 2],
+    ends: [VertexId; 2],
     weight: f64,
     step: f64,
 }
@@ -81,8 +82,8 @@ impl WantedChange {
     fn new(alpha: f64, image: &Image) -> Self {
         let Image { target, map, .. } = image;
         let solid = seen_solid_angles(image);
-        let (seen, unseen): (Vec<usize>, Vec<usize>) =
-            (0..solid.len()).partition(|f| solid[*f] > 0.0);
+        let (seen, unseen): (Vec<FaceId>, Vec<FaceId>) =
+            FaceId::all(solid.len()).partition(|f| solid[*f] > 0.0);
         let flat = TriMesh {
             vertices: target.image.iter().map(|q| q.extend(0.0)).collect(),
             faces: seen.iter().map(|f| target.mesh.faces[*f]).collect(),
@@ -95,7 +96,7 @@ impl WantedChange {
             sides.extend((0..3).map(|k| {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                 FaceSide {
-                    ends: [face[i] as usize, face[j] as usize],
+                    ends: [face[i], face[j]],
                     // The integral of a squared gradient is the sum of `cot / 2` times squared differences.
                     weight: geometry.cotangents[n][k] / 2.0,
                     step: change.dot(q[i] - q[j]),
@@ -104,8 +105,8 @@ impl WantedChange {
         }
         let lengths: f64 = flat.faces.iter().map(|f| perimeter(target, *f)).sum();
         let edge = lengths / (3 * seen.len()).max(1) as f64;
-        let edges = |f: &usize| {
-            let face = target.mesh.faces[*f].map(|v| v as usize);
+        let edges = |f: &FaceId| {
+            let face = target.mesh.faces[*f];
             [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]])
         };
         Self {
@@ -129,7 +130,7 @@ impl WantedChange {
         } in &self.sides
         {
             let weight = weight / mean;
-            quadratic.difference(*i, *j, weight);
+            quadratic.difference(i.at(), j.at(), weight);
             linear[*i] -= 2.0 * weight * step;
             linear[*j] += 2.0 * weight * step;
         }
@@ -147,7 +148,7 @@ impl WantedChange {
         }
         self.unseen
             .iter()
-            .for_each(|[i, j]| quadratic.difference(*i, *j, UNSEEN));
+            .for_each(|[i, j]| quadratic.difference(i.at(), j.at(), UNSEEN));
         (0..self.vertices).for_each(|i| quadratic.square(i, REGULARISER));
         let program = Program {
             variables: self.vertices,
@@ -161,15 +162,15 @@ impl WantedChange {
     }
 }
 
-fn perimeter(target: &Target, face: [u32; 3]) -> f64 {
-    let q = face.map(|v| target.image[v as usize]);
+fn perimeter(target: &Target, face: [VertexId; 3]) -> f64 {
+    let q = face.map(|v| target.image[v]);
     (0..3).map(|k| q[k].distance(q[(k + 1) % 3])).sum()
 }
 
 /// How much the gradient of `ln z` in the image is to change on a face.
-fn wanted_change(target: &Target, focal: f64, face: usize, alpha: f64) -> DVec2 {
+fn wanted_change(target: &Target, focal: f64, face: FaceId, alpha: f64) -> DVec2 {
     let q = target.image_of(face);
-    let x = target.mesh.faces[face].map(|v| focal * target.depth[v as usize].ln());
+    let x = target.mesh.faces[face].map(|v| focal * target.depth[v].ln());
     let (a, b) = (q[1] - q[0], q[2] - q[0]);
     let (dx, dy) = (x[1] - x[0], x[2] - x[0]);
     let gradient = (dx * -b.perp() + dy * a.perp()) / a.perp_dot(b);
@@ -207,9 +208,10 @@ fn jumps(target: &Target, map: &ViewMap, edge: f64) -> Vec<Jump> {
                 let [(a, za), (b, zb)] = [f, g].map(|f| anchor(target, f, q));
                 let step = map.plane.focal * (zb / za).ln();
                 if step.abs() > JUMP {
-                    let far = b.terms().map(|(v, w)| (v, -w));
+                    let near = a.terms().map(|(v, w)| (v.at(), w));
+                    let far = b.terms().map(|(v, w)| (v.at(), -w));
                     jumps.push(Jump {
-                        terms: a.terms().chain(far).collect(),
+                        terms: near.chain(far).collect(),
                         weight,
                         step,
                     });

@@ -13,7 +13,7 @@ use super::lazily::{MARGIN, Meaning, solve_lazily};
 use super::opening::{Opening, Tie};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::solve::{Method, SolveError, Solved};
-use crate::index::GroupId;
+use crate::index::{FaceId, GroupId, VertexId};
 use crate::laplacian::FaceGeometry;
 use crate::sight::Sight;
 use crate::viewmap::{Image, Target};
@@ -121,9 +121,9 @@ pub fn depths(
 fn linear(opening: Option<&Opening>, index: &Variables, unit: f64, variables: usize) -> Vec<f64> {
     let mut linear = vec![0.0; variables];
     if let Some(opening) = opening {
-        for (v, i) in index.of_vertex.iter().enumerate() {
+        for (v, i) in VertexId::all(index.of_vertex.len()).zip(&index.of_vertex) {
             if let Some(i) = i {
-                linear[*i as usize] = -REGULARISER * opening.start[v] / unit - opening.push[v];
+                linear[*i] = -REGULARISER * opening.start[v] / unit - opening.push[v];
             }
         }
     }
@@ -132,7 +132,7 @@ fn linear(opening: Option<&Opening>, index: &Variables, unit: f64, variables: us
 
 /// Where each vertex's `x` stands among the unknowns; vertices of faces that take no part have none.
 struct Variables {
-    of_vertex: Vec<Option<u32>>,
+    of_vertex: Vec<Option<usize>>,
     count: usize,
 }
 
@@ -143,26 +143,23 @@ impl Variables {
         let faces = target.mesh.faces.iter().zip(taking_part);
         for (face, _) in faces.filter(|(_, takes_part)| **takes_part) {
             for v in face {
-                of_vertex[*v as usize].get_or_insert_with(|| {
+                of_vertex[*v].get_or_insert_with(|| {
                     count += 1;
                     count - 1
                 });
             }
         }
-        Self {
-            of_vertex,
-            count: count as usize,
-        }
+        Self { of_vertex, count }
     }
 
     /// The variable of a vertex of a face that takes part.
-    fn at(&self, vertex: u32) -> usize {
-        self.of_vertex[vertex as usize].expect("corners of such faces take part") as usize
+    fn at(&self, vertex: VertexId) -> usize {
+        self.of_vertex[vertex].expect("corners of such faces take part")
     }
 
     /// The variables of a tie.
     fn tied(&self, tie: &Tie) -> Vec<(usize, f64)> {
-        let term = |(v, w): &(u32, f64)| Some((self.of_vertex[*v as usize]? as usize, *w));
+        let term = |(v, w): &(VertexId, f64)| Some((self.of_vertex[*v]?, *w));
         tie.iter().filter_map(term).collect()
     }
 
@@ -180,7 +177,7 @@ impl Variables {
     }
 
     fn relative_depths(&self, u: &[f64], unit: f64) -> Vec<f64> {
-        let depth = |i: &Option<u32>| i.map_or(1.0, |i| (u[i as usize] * unit).exp());
+        let depth = |i: &Option<usize>| i.map_or(1.0, |i| (u[i] * unit).exp());
         self.of_vertex.iter().map(depth).collect()
     }
 
@@ -194,7 +191,7 @@ impl Variables {
             };
             let (tangent, constant) = log_tangent(&anchor, s);
             for (v, p) in tangent {
-                terms.push((self.of_vertex[v]? as usize, sign * p));
+                terms.push((self.of_vertex[v]?, sign * p));
             }
             if scaled {
                 terms.push((self.scale(group), -sign));
@@ -221,7 +218,7 @@ fn reweighted(tangent: f64) -> f64 {
 /// The faces that take part: `tan^2 theta = sum over k of turn_k (x_(k+1) - x_(k+2))^2`, and how much each counts.
 struct Faces {
     /// Corners, `turn`, weight.
-    faces: Vec<([u32; 3], [f64; 3], f64)>,
+    faces: Vec<([VertexId; 3], [f64; 3], f64)>,
 }
 
 impl Faces {
@@ -234,7 +231,7 @@ impl Faces {
     ) -> Self {
         let Image { target, map, .. } = image;
         let geometry = FaceGeometry::new(&target.mesh);
-        let face = |f: usize| {
+        let face = |f: FaceId| {
             let corners = target.mesh.corners(f);
             let h = target.mesh.normal(f).dot(corners[0] - map.plane.eye).abs();
             let area = geometry.areas[f];
@@ -253,7 +250,7 @@ impl Faces {
             let all = weight * factor * marked * hidden;
             (target.mesh.faces[f], turn, all)
         };
-        let faces = (0..seen.len()).filter(|f| taking_part[*f]);
+        let faces = FaceId::all(seen.len()).filter(|f| taking_part[*f]);
         Self {
             faces: faces.map(face).collect(),
         }
@@ -314,7 +311,7 @@ fn regularised(
 
 /// Both limits of every step.
 fn step_rows(opening: &Opening, index: &Variables, unit: f64) -> Vec<Row> {
-    let at = |v: u32| index.of_vertex[v as usize].map(|i| i as usize);
+    let at = |v: VertexId| index.of_vertex[v];
     let mut rows = Vec::with_capacity(opening.steps.len());
     for (i, step) in opening.steps.iter().enumerate() {
         let (Some(near), Some(far)) = (at(step.near), at(step.far)) else {

@@ -1,17 +1,19 @@
 //! What a mesh that was cut along tears brings along.
 
+use crate::index::VertexId;
+
 /// A step between two vertices of a cut mesh that stand on one ray: `least <= x_far - x_near <= most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    pub near: u32,
-    pub far: u32,
+    pub near: VertexId,
+    pub far: VertexId,
     pub least: f64,
     pub most: f64,
 }
 
 /// Two points of a cut mesh on one ray that stay together although they share no vertices: weights of vertices, of which
 /// the weighted sum of `x` is to vanish.
-pub type Tie = Vec<(u32, f64)>;
+pub type Tie = Vec<(VertexId, f64)>;
 
 /// What a cut mesh brings along: a surface near the optimum, and the steps to keep.
 #[derive(Clone, Debug, PartialEq)]

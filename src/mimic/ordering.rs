@@ -14,7 +14,7 @@
 
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, Groups, anchor};
-use crate::index::{CellId, FaceId, GroupId, SupportId};
+use crate::index::{CellId, FaceId, GroupId, SupportId, VertexId};
 use crate::sight::Sight;
 use crate::viewmap::{Cell, Target, ViewMap};
 use glam::DVec2;
@@ -134,9 +134,9 @@ pub(super) fn order(
 }
 
 /// The vertices of two edges, each pair rising.
-pub(super) type EdgePair = [[u32; 2]; 2];
+pub(super) type EdgePair = [[VertexId; 2]; 2];
 /// A vertex, its group and whether it is behind a face; how far, relatively; the order of both.
-pub(super) type VertexEvent = ((u32, GroupId, bool), f64, Order);
+pub(super) type VertexEvent = ((VertexId, GroupId, bool), f64, Order);
 
 struct Finder<'a> {
     target: &'a Target,
@@ -149,7 +149,7 @@ impl Finder<'_> {
     /// Vertices of one face that lie in the image of the other.
     fn vertices_inside(&self, pair: [FaceId; 2]) -> Vec<VertexEvent> {
         let faces = pair.map(|f| self.target.mesh.faces[f]);
-        let images = pair.map(|f| self.target.image_of(f.at()));
+        let images = pair.map(|f| self.target.image_of(f));
         let mut events = Vec::new();
         for (own, other) in [(0, 1), (1, 0)] {
             let [a, b, c] = images[other];
@@ -174,11 +174,11 @@ impl Finder<'_> {
     /// Crossings of an edge of one face with one of the other in the image.
     fn edges_crossing(&self, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> {
         let faces = pair.map(|f| self.target.mesh.faces[f]);
-        let images = pair.map(|f| self.target.image_of(f.at()));
+        let images = pair.map(|f| self.target.image_of(f));
         let mut events = Vec::new();
         for (i, j) in (0..9).map(|n| (n / 3, n % 3)) {
             let mut sides = [(0, i), (1, j)].map(|(f, k)| {
-                let (a, b): (u32, u32) = (faces[f][k], faces[f][(k + 1) % 3]);
+                let (a, b) = (faces[f][k], faces[f][(k + 1) % 3]);
                 [a.min(b), a.max(b)]
             });
             if sides[0].iter().any(|v| sides[1].contains(v)) {
@@ -219,7 +219,7 @@ fn seen_faces(map: &ViewMap) -> Vec<FaceId> {
 /// Pairs of faces whose boxes in the image overlap, each once: a sweep over their left ends.
 pub(super) fn overlapping(target: &Target, faces: &[FaceId]) -> Vec<[FaceId; 2]> {
     let image_box = |f: &FaceId| {
-        let [a, b, c] = target.image_of(f.at());
+        let [a, b, c] = target.image_of(*f);
         (a.min(b).min(c), a.max(b).max(c), *f)
     };
     let mut boxes: Vec<(DVec2, DVec2, FaceId)> = faces.iter().map(image_box).collect();

@@ -7,7 +7,7 @@
 use super::ordering::{EdgePair, Order, Orders, VertexEvent, order, overlapping, sorted};
 use crate::geom::orient;
 use crate::groups::{Anchor, vertex_anchor};
-use crate::index::{FaceId, GroupId};
+use crate::index::{FaceId, GroupId, VertexId};
 use crate::viewmap::Target;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ pub fn sheet_orders(target: &Target, gap_mm: f64) -> Orders {
     let (vertices, edges): (Vec<_>, Vec<_>) = found.into_iter().unzip();
     let mut orders = sorted(vertices.concat(), edges.concat());
     for order in &mut orders.all {
-        let depth = target.depth[order.back.vertices[0] as usize];
+        let depth = target.depth[order.back.vertices[0]];
         let gap = (gap_mm / depth).min(-GAP_SHARE * order.ratio.ln());
         order.ratio *= gap.exp();
     }
@@ -52,7 +52,7 @@ pub fn sheet_orders(target: &Target, gap_mm: f64) -> Orders {
 /// Vertices of one face strictly inside the image of the other.
 fn vertices_inside(target: &Target, pair: [FaceId; 2]) -> Vec<VertexEvent> {
     let faces = pair.map(|f| target.mesh.faces[f]);
-    let images = pair.map(|f| target.image_of(f.at()));
+    let images = pair.map(|f| target.image_of(f));
     let mut events = Vec::new();
     for (own, other) in [(0, 1), (1, 0)] {
         let [a, b, c] = images[other];
@@ -63,7 +63,7 @@ fn vertices_inside(target: &Target, pair: [FaceId; 2]) -> Vec<VertexEvent> {
                 continue;
             }
             let there = mixed(target, faces[other], turns.map(f64::abs));
-            let here = (vertex_anchor(v), target.depth[v as usize]);
+            let here = (vertex_anchor(v), target.depth[v]);
             let event = order([here, there], [ONLY; 2], TOUCHING * there.1);
             events.extend(event.map(|(behind, order)| ((v, ONLY, behind), -order.ratio, order)));
         }
@@ -87,7 +87,7 @@ fn edges_crossing(target: &Target, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> 
         }
         // From both faces alike.
         let sides = [i.min(j), i.max(j)];
-        let ends = sides.map(|e| e.map(|v| target.image[v as usize]));
+        let ends = sides.map(|e| e.map(|v| target.image[v]));
         if let Some(shares) = crossing(ends) {
             let at = [0, 1].map(|k| {
                 let [a, b] = sides[k];
@@ -114,9 +114,9 @@ fn crossing([[a, b], [c, d]]: [[DVec2; 2]; 2]) -> Option<[f64; 2]> {
 }
 
 /// The point of the image that is this mix of three vertices' images, as an anchor with its depth in the model.
-fn mixed(target: &Target, vertices: [u32; 3], shares: [f64; 3]) -> (Anchor, f64) {
+fn mixed(target: &Target, vertices: [VertexId; 3], shares: [f64; 3]) -> (Anchor, f64) {
     let sum: f64 = shares.iter().sum();
-    let inverse = [0, 1, 2].map(|k| shares[k] / sum / target.depth[vertices[k] as usize]);
+    let inverse = [0, 1, 2].map(|k| shares[k] / sum / target.depth[vertices[k]]);
     let total: f64 = inverse.iter().sum();
     let anchor = Anchor {
         vertices,

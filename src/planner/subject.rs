@@ -220,7 +220,7 @@ impl Subject {
         }
         for face in &target.faces {
             for k in 0..3 {
-                let (i, j) = (face[k] as usize, face[(k + 1) % 3] as usize);
+                let (i, j) = (face[k], face[(k + 1) % 3]);
                 let (from, to) = (column(points[i].0), column(points[j].0));
                 for border in from.min(to) + 1..=from.max(to) {
                     let way = DVec2::from_angle(a + width * border as f64).rotate(self.ahead);

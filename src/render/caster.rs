@@ -3,6 +3,7 @@
 
 use crate::bvh::Bvh;
 use crate::geom::ImagePlane;
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 
@@ -20,7 +21,7 @@ pub const PAPER: f64 = (255.0 - DARK) / SPAN;
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Meet {
-    pub face: usize,
+    pub face: FaceId,
     pub place: DVec3,
     /// Unit, of the facet; zero if it has none.
     pub normal: DVec3,

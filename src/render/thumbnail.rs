@@ -143,7 +143,7 @@ impl<'a> Studio<'a> {
         let sky = open * (0.40 + 0.08 * meet.normal.z);
         let colour = self
             .colours
-            .and_then(|c| c.get(meet.face))
+            .and_then(|c| c.get(meet.face.at()))
             .copied()
             .unwrap_or(shading::PLASTER);
         shading::scaled(colour, 0.12 + sky + if lit { 0.52 * facing } else { 0.0 })

@@ -8,6 +8,7 @@ use crate::bvh::Bvh;
 use crate::diagram::drawing::Drawing;
 use crate::diagram::raster;
 use crate::geom::ImagePlane;
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use crate::render::camera::camera;
 use crate::render::captions::{CaptionPlace, captions};
@@ -86,8 +87,8 @@ pub fn view_pictures(
 /// The faces that one ray meets.
 #[derive(Clone, Copy)]
 struct Look {
-    target: Option<usize>,
-    forest: Option<usize>,
+    target: Option<FaceId>,
+    forest: Option<FaceId>,
 }
 
 impl Look {
@@ -107,14 +108,14 @@ impl Look {
         colours: Option<&[[u8; 3]]>,
         lights: &Lights,
     ) -> [Rgb; 3] {
-        let tint = |face: usize| {
-            let colour = colours.and_then(|c| c.get(face)).copied();
+        let tint = |face: FaceId| {
+            let colour = colours.and_then(|c| c.get(face.at())).copied();
             colour.map_or(shading::PLASTER, |c| {
                 shading::mixed(shading::PLASTER, c, TINT)
             })
         };
         let shade =
-            |mesh: &TriMesh, face: usize, colour: [u8; 3]| lights.shade(mesh.normal(face), colour);
+            |mesh: &TriMesh, face: FaceId, colour: [u8; 3]| lights.shade(mesh.normal(face), colour);
         let wanted = self
             .target
             .map_or(shading::BACKGROUND, |f| shade(target, f, shading::PLASTER));

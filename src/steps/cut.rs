@@ -4,7 +4,7 @@ use super::fusion::PatchDepths;
 use super::options::{Prefer, StepOptions};
 use super::patches::{PatchId, Patches};
 use crate::groups::Anchor;
-use crate::index::FaceId;
+use crate::index::{FaceId, VertexId, indices};
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::mimic::{Depths, Opening, Order, Step, Tie};
 use crate::viewmap::{Image, Target, ViewMap};
@@ -29,9 +29,9 @@ pub struct Cut {
     pub target: Target,
     pub map: ViewMap,
     /// The target's vertex at every vertex of the cut mesh.
-    pub vertices: Vec<u32>,
+    pub vertices: Vec<VertexId>,
     /// Vertices of the cut mesh at every patch's corners.
-    pub corners: Vec<[u32; 3]>,
+    pub corners: Vec<[VertexId; 3]>,
     /// The depth order of sheets that meet along contours, at every corner there.
     pub orders: Vec<Order>,
     /// Log relief depth over the model's of every vertex.
@@ -43,12 +43,17 @@ pub struct Cut {
 /// A corner of a patch.
 type Corner = (PatchId, u8);
 
+indices! {
+    /// A corner among those of all patches.
+    CornerId
+}
+
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
 /// allowed, or in the wrong order, so that the program has a solution to begin with.
 pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64) -> Cut {
     let Image { target, map, .. } = image;
     let pairs = corner_pairs(target, patches);
-    let vertex = |c: Corner| vertex(target, patches, c) as usize;
+    let vertex = |c: Corner| vertex(target, patches, c);
     // Depths in the relief: the nearer corner decides.
     let printable = |(a, b): (Corner, Corner), near: f64, far: f64| {
         far.exp() - near.exp() >= CLOSED * least_mm / target.depth[vertex(a)]
@@ -60,16 +65,13 @@ pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64)
         bundles.join(&pairs, printable);
     }
     let (corners, start) = bundles.numbered();
-    let mut vertices = vec![0; start.len()];
+    let mut vertices = vec![VertexId(0); start.len()];
     for (p, c) in corners.iter().enumerate() {
-        (0..3).for_each(|k| vertices[c[k] as usize] = vertex((PatchId::new(p), k as u8)) as u32);
+        (0..3).for_each(|k| vertices[c[k]] = vertex((PatchId::new(p), k as u8)));
     }
     let steps = steps_between(target, patches, &pairs, &corners, &start, least_mm);
     let mesh = TriMesh {
-        vertices: vertices
-            .iter()
-            .map(|v| target.mesh.vertices[*v as usize])
-            .collect(),
+        vertices: vertices.iter().map(|v| target.mesh.vertices[*v]).collect(),
         faces: corners.clone(),
     };
     let mut map = map.clone();
@@ -90,7 +92,7 @@ pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64)
 
 /// The lowest step at a vertex of the cut `target`, millimetres of depth.
 pub fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Option<f64> {
-    let z = |v: u32| target.depth[v as usize] * depths.s[v as usize];
+    let z = |v: VertexId| target.depth[v] * depths.s[v];
     let heights = steps.iter().map(|s| z(s.far) - z(s.near));
     heights.min_by(f64::total_cmp)
 }
@@ -106,14 +108,12 @@ impl Cut {
         let mut push = vec![0.0; self.start.len()];
         let mut pull = |patch: PatchId, weights: &[f64; 3], force: f64| {
             for (v, w) in self.corners[patch].iter().zip(weights) {
-                push[*v as usize] += force * w;
+                push[*v] += force * w;
             }
         };
         for seam in &patches.seams {
             let [i, j] = seam.patches;
-            let [first, second] = seam
-                .patches
-                .map(|p| self.corners[p].map(|v| self.start[v as usize]));
+            let [first, second] = seam.patches.map(|p| self.corners[p].map(|v| self.start[v]));
             for (end, [a, b]) in seam.ends.iter().enumerate() {
                 let first_is_near = seam.jump(end, &first, &second) < 0.0;
                 let force = sign * seam.length_mm / 2.0 * if first_is_near { 1.0 } else { -1.0 };
@@ -146,22 +146,18 @@ fn steps_between(
     target: &Target,
     patches: &Patches,
     pairs: &[(Corner, Corner)],
-    corners: &[[u32; 3]],
+    corners: &[[VertexId; 3]],
     start: &[f64],
     least_mm: f64,
 ) -> Vec<Step> {
     let at = |(p, k): Corner| corners[p][usize::from(k)];
     let step = |(a, b): &(Corner, Corner)| {
         let (v, w) = (at(*a), at(*b));
-        let (near, far) = if start[v as usize] < start[w as usize] {
-            (v, w)
-        } else {
-            (w, v)
-        };
+        let (near, far) = if start[v] < start[w] { (v, w) } else { (w, v) };
         let (p, k) = *a;
         // At the layer's front a step must be largest in log depth.
         let front = patches.patches[p].room[usize::from(k)].0.exp();
-        let z = target.depth[vertex(target, patches, *a) as usize];
+        let z = target.depth[vertex(target, patches, *a)];
         Step {
             near,
             far,
@@ -185,12 +181,12 @@ fn highest(patches: &Patches, a: Corner, b: Corner) -> f64 {
     of(a).min(of(b))
 }
 
-fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> u32 {
+fn vertex(target: &Target, patches: &Patches, (p, k): Corner) -> VertexId {
     target.mesh.faces[patches.patches[p].face][usize::from(k)]
 }
 
-fn index((p, k): Corner) -> u32 {
-    3 * p.0 + u32::from(k)
+fn index((p, k): Corner) -> CornerId {
+    CornerId(3 * p.0 + u32::from(k))
 }
 
 /// Corners with the mean depth of each bundle.
@@ -208,8 +204,13 @@ impl Bundles {
         }
     }
 
-    fn mean(&mut self, corner: u32) -> f64 {
-        let (sum, count) = self.sums[self.sets.root(corner) as usize];
+    fn root(&mut self, corner: CornerId) -> CornerId {
+        CornerId(self.sets.root(corner.0))
+    }
+
+    fn mean(&mut self, corner: CornerId) -> f64 {
+        let root = self.root(corner);
+        let (sum, count) = self.sums[root];
         sum / count
     }
 
@@ -256,23 +257,25 @@ impl Bundles {
     }
 
     /// Joins two corners; whether they were apart.
-    fn put_together(&mut self, a: u32, b: u32) -> bool {
-        let (i, j) = (self.sets.root(a), self.sets.root(b));
+    fn put_together(&mut self, a: CornerId, b: CornerId) -> bool {
+        let (i, j) = (self.root(a), self.root(b));
         if i == j {
             return false;
         }
-        let (s, t) = (self.sums[i as usize], self.sums[j as usize]);
-        self.sets.join(i, j);
-        self.sums[self.sets.root(i) as usize] = (s.0 + t.0, s.1 + t.1);
+        let (s, t) = (self.sums[i], self.sums[j]);
+        self.sets.join(i.0, j.0);
+        let root = self.root(i);
+        self.sums[root] = (s.0 + t.0, s.1 + t.1);
         true
     }
 
     /// The bundle of every patch's corners, and the bundles' means.
-    fn numbered(mut self) -> (Vec<[u32; 3]>, Vec<f64>) {
+    fn numbered(mut self) -> (Vec<[VertexId; 3]>, Vec<f64>) {
         let (count, number) = self.sets.numbers();
+        let number: Vec<VertexId> = number.into_iter().map(VertexId).collect();
         let mut means = vec![0.0; count];
-        for (corner, n) in number.iter().enumerate() {
-            means[*n as usize] = self.mean(corner as u32);
+        for (corner, n) in CornerId::all(number.len()).zip(&number) {
+            means[*n] = self.mean(corner);
         }
         (
             number.chunks(3).map(|c| [c[0], c[1], c[2]]).collect(),
@@ -301,7 +304,7 @@ fn corner_pairs(target: &Target, patches: &Patches) -> Vec<(Corner, Corner)> {
 }
 
 /// Exact for the relief: `1/lambda` is affine along a side on both sheets, so that its ends decide.
-fn orders(patches: &Patches, corners: &[[u32; 3]]) -> Vec<Order> {
+fn orders(patches: &Patches, corners: &[[VertexId; 3]]) -> Vec<Order> {
     let mut orders = Vec::new();
     for seam in &patches.seams {
         for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
@@ -335,7 +338,7 @@ fn orders(patches: &Patches, corners: &[[u32; 3]]) -> Vec<Order> {
 
 /// Where patches meet closer than `least` (log depth) without sharing the vertices around: at sides whose faces are no
 /// neighbours, because a thin face between them was merged away.
-fn ties(patches: &Patches, corners: &[[u32; 3]], start: &[f64], least: f64) -> Vec<Tie> {
+fn ties(patches: &Patches, corners: &[[VertexId; 3]], start: &[f64], least: f64) -> Vec<Tie> {
     let mut ties = Vec::new();
     for seam in &patches.seams {
         for (weights, gap) in seam.ends.iter().zip(seam.gaps) {
@@ -351,7 +354,7 @@ fn ties(patches: &Patches, corners: &[[u32; 3]], start: &[f64], least: f64) -> V
                 same
             });
             tie.retain(|t| t.1.abs() > SHARED);
-            let open: f64 = tie.iter().map(|(v, w)| w * start[*v as usize]).sum();
+            let open: f64 = tie.iter().map(|(v, w)| w * start[*v]).sum();
             if gap == 0.0 && !tie.is_empty() && open.abs() < least {
                 ties.push(tie);
             }

@@ -5,6 +5,7 @@ use super::options::UNSEEN_RAD;
 use super::patches::{PatchId, Patches, Seam};
 use crate::geom::parallax;
 use crate::groups::{Anchor, anchor};
+use crate::index::VertexId;
 use crate::mesh::DisjointSets;
 use crate::mimic::Depths;
 use crate::viewmap::{Image, Target};
@@ -98,7 +99,7 @@ fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (
 pub fn lines(
     image: &Image,
     patches: &Patches,
-    corners: &[[u32; 3]],
+    corners: &[[VertexId; 3]],
     depths: &Depths,
 ) -> (Vec<StepLine>, StepSummary) {
     let Image { target, map, .. } = image;
@@ -147,7 +148,7 @@ fn stay_together(
     target: &Target,
     patches: &Patches,
     pair: [PatchId; 2],
-    cut: [[u32; 3]; 2],
+    cut: [[VertexId; 3]; 2],
 ) -> bool {
     let [a, b] = pair.map(|p| target.mesh.faces[patches.patches[p].face]);
     let mut places = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));

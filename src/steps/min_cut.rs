@@ -5,7 +5,15 @@
 //! that are nearly planar with few and far sources and sinks: on those of a view six to eight times faster than Dinic's
 //! blocking flows. Costs are rounded to integers, so that the result depends on nothing but the costs.
 
+use crate::index::indices;
 use std::collections::VecDeque;
+
+indices! {
+    /// A variable as a node of the network.
+    NodeId
+    /// An arc, by its tail.
+    ArcId
+}
 
 /// Costs are counted in units of this, so that sums of 1e6 large ones still fit.
 const UNIT: f64 = 1.0 / (1 << 20) as f64;
@@ -15,7 +23,7 @@ const NEVER: f64 = 1e9;
 /// A binary energy under construction.
 pub struct BinaryEnergy {
     /// Tail, head and room of arcs; every second is the reverse of the one before.
-    arcs: Vec<(u32, u32, i64)>,
+    arcs: Vec<(NodeId, NodeId, i64)>,
     /// Cost of 1 less cost of 0 of every variable.
     tilt: Vec<f64>,
 }
@@ -42,8 +50,9 @@ impl BinaryEnergy {
         let across = b + c - a - d;
         if across > 0.0 {
             let room = (across / UNIT).round() as i64;
-            self.arcs.push((i as u32, j as u32, room));
-            self.arcs.push((j as u32, i as u32, 0));
+            let (i, j) = (NodeId::new(i), NodeId::new(j));
+            self.arcs.push((i, j, room));
+            self.arcs.push((j, i, 0));
         }
     }
 
@@ -70,7 +79,7 @@ enum Parent {
     None,
     Terminal,
     /// The arc from the node to its parent.
-    Arc(u32),
+    Arc(ArcId),
 }
 
 #[derive(Clone, Copy)]
@@ -87,8 +96,8 @@ struct Node {
 
 #[derive(Clone, Copy)]
 struct Arc {
-    head: u32,
-    reverse: u32,
+    head: NodeId,
+    reverse: ArcId,
     room: i64,
 }
 
@@ -96,35 +105,36 @@ struct Flow {
     nodes: Vec<Node>,
     /// Arcs by tail: those of node `v` are `starts[v]..starts[v + 1]`.
     arcs: Vec<Arc>,
-    starts: Vec<u32>,
-    queue: VecDeque<u32>,
-    orphans: VecDeque<u32>,
+    starts: Vec<ArcId>,
+    queue: VecDeque<NodeId>,
+    orphans: VecDeque<NodeId>,
     time: u32,
 }
 
 impl Flow {
-    fn new(arcs: &[(u32, u32, i64)], tilt: &[f64]) -> Self {
-        let mut starts = vec![0u32; tilt.len() + 1];
-        arcs.iter().for_each(|a| starts[a.0 as usize + 1] += 1);
-        (0..tilt.len()).for_each(|v| starts[v + 1] += starts[v]);
+    fn new(arcs: &[(NodeId, NodeId, i64)], tilt: &[f64]) -> Self {
+        let mut starts = vec![ArcId(0); tilt.len() + 1];
+        arcs.iter().for_each(|a| starts[a.0.at() + 1].0 += 1);
+        (0..tilt.len()).for_each(|v| starts[v + 1].0 += starts[v].0);
         let mut next = starts.clone();
-        let place: Vec<u32> = arcs
+        let place: Vec<ArcId> = arcs
             .iter()
             .map(|a| {
-                next[a.0 as usize] += 1;
-                next[a.0 as usize] - 1
+                let own = next[a.0];
+                next[a.0].0 += 1;
+                own
             })
             .collect();
         let mut sorted = vec![
             Arc {
-                head: 0,
-                reverse: 0,
+                head: NodeId(0),
+                reverse: ArcId(0),
                 room: 0
             };
             arcs.len()
         ];
         for (i, (_, head, room)) in arcs.iter().enumerate() {
-            sorted[place[i] as usize] = Arc {
+            sorted[place[i]] = Arc {
                 head: *head,
                 reverse: place[i ^ 1],
                 room: *room,
@@ -151,7 +161,7 @@ impl Flow {
             }
         };
         let nodes: Vec<Node> = tilt.iter().map(node).collect();
-        let queue = (0..nodes.len() as u32).filter(|v| nodes[*v as usize].active);
+        let queue = NodeId::all(nodes.len()).filter(|v| nodes[*v].active);
         Self {
             queue: queue.collect(),
             nodes,
@@ -162,20 +172,20 @@ impl Flow {
         }
     }
 
-    fn arcs_of(&self, v: u32) -> std::ops::Range<u32> {
-        self.starts[v as usize]..self.starts[v as usize + 1]
+    fn arcs_of(&self, v: NodeId) -> impl Iterator<Item = ArcId> + use<> {
+        (self.starts[v].0..self.starts[v.at() + 1].0).map(ArcId)
     }
 
-    fn reverse(&self, a: u32) -> u32 {
-        self.arcs[a as usize].reverse
+    fn reverse(&self, a: ArcId) -> ArcId {
+        self.arcs[a].reverse
     }
 
-    fn room(&self, a: u32) -> i64 {
-        self.arcs[a as usize].room
+    fn room(&self, a: ArcId) -> i64 {
+        self.arcs[a].room
     }
 
     /// Room from the parent's side of the tree to the child's, along the child's arc `a` to its parent.
-    fn room_down(&self, tree: Tree, a: u32) -> i64 {
+    fn room_down(&self, tree: Tree, a: ArcId) -> i64 {
         if tree == Tree::Source {
             self.room(self.reverse(a))
         } else {
@@ -183,9 +193,9 @@ impl Flow {
         }
     }
 
-    fn activate(&mut self, v: u32) {
-        if !self.nodes[v as usize].active {
-            self.nodes[v as usize].active = true;
+    fn activate(&mut self, v: NodeId) {
+        if !self.nodes[v].active {
+            self.nodes[v].active = true;
             self.queue.push_back(v);
         }
     }
@@ -193,13 +203,13 @@ impl Flow {
     fn run(&mut self) {
         while let Some(v) = self.queue.front().copied() {
             // Active nodes that were cut off in the meantime are dropped.
-            let bridge = if self.nodes[v as usize].parent == Parent::None {
+            let bridge = if self.nodes[v].parent == Parent::None {
                 None
             } else {
                 self.grow(v)
             };
             let Some(bridge) = bridge else {
-                self.nodes[v as usize].active = false;
+                self.nodes[v].active = false;
                 self.queue.pop_front();
                 continue;
             };
@@ -213,13 +223,13 @@ impl Flow {
 
     /// Lets the tree of `v` take in free neighbours until it meets the other one; gives the arc from the source's tree to the
     /// sink's.
-    fn grow(&mut self, v: u32) -> Option<u32> {
+    fn grow(&mut self, v: NodeId) -> Option<ArcId> {
         let Node {
             tree,
             distance,
             time,
             ..
-        } = self.nodes[v as usize];
+        } = self.nodes[v];
         for a in self.arcs_of(v) {
             let outwards = if tree == Tree::Source {
                 a
@@ -230,8 +240,8 @@ impl Flow {
                 continue;
             }
             let back = self.reverse(a);
-            let head = self.arcs[a as usize].head;
-            let w = &mut self.nodes[head as usize];
+            let head = self.arcs[a].head;
+            let w = &mut self.nodes[head];
             if w.tree == Tree::Free {
                 w.tree = tree;
                 w.parent = Parent::Arc(back);
@@ -250,30 +260,27 @@ impl Flow {
     }
 
     /// Pushes as much as fits from the source over `bridge` to the sink; nodes cut off become orphans.
-    fn augment(&mut self, bridge: u32) {
-        let ends = [
-            self.arcs[self.reverse(bridge) as usize].head,
-            self.arcs[bridge as usize].head,
-        ];
+    fn augment(&mut self, bridge: ArcId) {
+        let ends = [self.arcs[self.reverse(bridge)].head, self.arcs[bridge].head];
         let mut push = self.room(bridge);
         for mut v in ends {
             loop {
-                let node = self.nodes[v as usize];
+                let node = self.nodes[v];
                 let Parent::Arc(a) = node.parent else {
                     push = push.min(node.terminal.abs());
                     break;
                 };
                 push = push.min(self.room_down(node.tree, a));
-                v = self.arcs[a as usize].head;
+                v = self.arcs[a].head;
             }
         }
         self.push(bridge, push);
         for mut v in ends {
             loop {
-                let node = self.nodes[v as usize];
+                let node = self.nodes[v];
                 let Parent::Arc(a) = node.parent else {
-                    self.nodes[v as usize].terminal -= push * node.terminal.signum();
-                    if self.nodes[v as usize].terminal == 0 {
+                    self.nodes[v].terminal -= push * node.terminal.signum();
+                    if self.nodes[v].terminal == 0 {
                         self.orphan(v);
                     }
                     break;
@@ -287,29 +294,29 @@ impl Flow {
                 if self.room(down) == 0 {
                     self.orphan(v);
                 }
-                v = self.arcs[a as usize].head;
+                v = self.arcs[a].head;
             }
         }
     }
 
-    fn push(&mut self, a: u32, amount: i64) {
+    fn push(&mut self, a: ArcId, amount: i64) {
         let back = self.reverse(a);
-        self.arcs[a as usize].room -= amount;
-        self.arcs[back as usize].room += amount;
+        self.arcs[a].room -= amount;
+        self.arcs[back].room += amount;
     }
 
-    fn orphan(&mut self, v: u32) {
-        self.nodes[v as usize].parent = Parent::None;
+    fn orphan(&mut self, v: NodeId) {
+        self.nodes[v].parent = Parent::None;
         self.orphans.push_back(v);
     }
 
     /// Finds an orphan a new parent as near to the terminal as possible, or sets it free and orphans its children.
-    fn adopt(&mut self, v: u32) {
-        let tree = self.nodes[v as usize].tree;
-        let mut best: Option<(u32, u32)> = None;
+    fn adopt(&mut self, v: NodeId) {
+        let tree = self.nodes[v].tree;
+        let mut best: Option<(u32, ArcId)> = None;
         for a in self.arcs_of(v) {
-            let head = self.arcs[a as usize].head;
-            if self.nodes[head as usize].tree == tree && self.room_down(tree, a) > 0 {
+            let head = self.arcs[a].head;
+            if self.nodes[head].tree == tree && self.room_down(tree, a) > 0 {
                 let distance = self.distance(head);
                 if let Some(d) = distance.filter(|d| best.is_none_or(|b| *d < b.0)) {
                     best = Some((d, a));
@@ -317,37 +324,37 @@ impl Flow {
             }
         }
         if let Some((distance, a)) = best {
-            let node = &mut self.nodes[v as usize];
+            let node = &mut self.nodes[v];
             node.parent = Parent::Arc(a);
             node.distance = distance + 1;
             node.time = self.time;
             return;
         }
-        self.nodes[v as usize].tree = Tree::Free;
+        self.nodes[v].tree = Tree::Free;
         for a in self.arcs_of(v) {
-            let head = self.arcs[a as usize].head;
+            let head = self.arcs[a].head;
             let Node {
                 tree: other,
                 parent,
                 ..
-            } = self.nodes[head as usize];
+            } = self.nodes[head];
             if other != tree {
                 continue;
             }
             if self.room_down(tree, a) > 0 {
                 self.activate(head);
             }
-            if matches!(parent, Parent::Arc(b) if self.arcs[b as usize].head == v) {
+            if matches!(parent, Parent::Arc(b) if self.arcs[b].head == v) {
                 self.orphan(head);
             }
         }
     }
 
     /// Distance of a node from its terminal, `None` if an orphan hangs in between. Marks the way, so that it is walked once.
-    fn distance(&mut self, v: u32) -> Option<u32> {
+    fn distance(&mut self, v: NodeId) -> Option<u32> {
         let (mut at, mut steps) = (v, 0);
         let total = loop {
-            let node = &mut self.nodes[at as usize];
+            let node = &mut self.nodes[at];
             if node.time == self.time && node.parent != Parent::None {
                 break steps + node.distance;
             }
@@ -360,19 +367,19 @@ impl Flow {
                 }
                 Parent::Arc(a) => {
                     steps += 1;
-                    at = self.arcs[a as usize].head;
+                    at = self.arcs[a].head;
                 }
             }
         };
         let (mut at, mut left) = (v, total);
-        while self.nodes[at as usize].time != self.time {
-            self.nodes[at as usize].time = self.time;
-            self.nodes[at as usize].distance = left;
+        while self.nodes[at].time != self.time {
+            self.nodes[at].time = self.time;
+            self.nodes[at].distance = left;
             left -= 1;
-            let Parent::Arc(a) = self.nodes[at as usize].parent else {
+            let Parent::Arc(a) = self.nodes[at].parent else {
                 break;
             };
-            at = self.arcs[a as usize].head;
+            at = self.arcs[a].head;
         }
         Some(total)
     }

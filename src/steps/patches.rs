@@ -132,8 +132,8 @@ impl Patches {
         for p in &mut patches {
             p.highest = highest(limits, target, map.plane.focal, p);
             p.seen_mm2 *= scale * scale;
-            let counted = p.seen_mm2 * target.face_weight(p.face.at()).powi(2);
-            p.tilt = tilt(target, &map.plane, &geometry, p.face.at(), counted);
+            let counted = p.seen_mm2 * target.face_weight(p.face).powi(2);
+            p.tilt = tilt(target, &map.plane, &geometry, p.face, counted);
         }
         let mut widths: Vec<f64> = patches
             .iter()
@@ -196,7 +196,7 @@ fn mean_depth(target: &Target, map: &ViewMap) -> f64 {
     for (c, cell) in map.all() {
         let Some(face) = cell.face else { continue };
         let sr = map.solid_angle(c);
-        let z = target.mesh.faces[face].map(|v| target.depth[v as usize]);
+        let z = target.mesh.faces[face].map(|v| target.depth[v]);
         sum += sr * z.iter().sum::<f64>() / 3.0;
         weight += sr;
     }
@@ -209,8 +209,8 @@ fn patch(sight: &Sight, group: GroupId, face: FaceId) -> Patch {
     let support = groups.groups[group].support;
     let slab = groups.slabs[support].expect("groups lie on supports with layers");
     let room = target.mesh.faces[face].map(|v| {
-        let (near, far) = image.layer_at(&slab, support, target.image[v as usize]);
-        let z = target.depth[v as usize];
+        let (near, far) = image.layer_at(&slab, support, target.image[v]);
+        let z = target.depth[v];
         ((near / z).ln(), (far / z).ln())
     });
     Patch {
@@ -230,7 +230,7 @@ fn patch(sight: &Sight, group: GroupId, face: FaceId) -> Patch {
 /// high, and opens by `e (1 - e^-d) / Z` for an eye that moves sideways by `e` (design: `e |1/Z1 - 1/Z2|`); as from the reading
 /// distance by `focal^2` times that.
 fn highest(limits: &StepLimits, target: &Target, focal: f64, p: &Patch) -> f64 {
-    let depth = target.mesh.faces[p.face].map(|v| target.depth[v as usize]);
+    let depth = target.mesh.faces[p.face].map(|v| target.depth[v]);
     let at = |k: usize, y: f64| depth[k] * y.exp();
     let nearest = (0..3)
         .map(|k| at(k, p.room[k].0))
@@ -275,7 +275,7 @@ fn tilt(
     target: &Target,
     plane: &ImagePlane,
     geometry: &FaceGeometry,
-    face: usize,
+    face: FaceId,
     seen: f64,
 ) -> [f64; 3] {
     let h = target
@@ -338,7 +338,7 @@ fn seam(
             0.0
         }
     };
-    let [a, b] = faces.map(|f| target.mesh.normal(f.at()));
+    let [a, b] = faces.map(|f| target.mesh.normal(f));
     Seam {
         patches: pair,
         ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),

@@ -6,7 +6,7 @@ use super::lines::{self, StepLine, StepSummary, lines};
 use super::options::StepOptions;
 use super::patches::{Patch, Patches};
 use super::thin;
-use crate::index::FaceId;
+use crate::index::{FaceId, VertexId};
 use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
 use crate::sight::Sight;
 use crate::viewmap::Image;
@@ -23,7 +23,7 @@ pub struct Torn<'a> {
     pub sight: Sight<'a>,
     pub depths: Depths,
     /// The uncut target's vertex at every vertex, and its face at every face.
-    pub vertices: Vec<u32>,
+    pub vertices: Vec<VertexId>,
     pub faces: Vec<FaceId>,
     pub lines: Vec<StepLine>,
     pub summary: StepSummary,
@@ -109,7 +109,7 @@ fn tear(
         .into_par_iter()
         .map(|(range, cells)| {
             let corners = |p: &Patch| target.mesh.faces[p.face];
-            let depth = |p: &Patch| corners(p).map(|v| target.depth[v as usize]);
+            let depth = |p: &Patch| corners(p).map(|v| target.depth[v]);
             let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);
             functional.descend(&mut y);

@@ -4,7 +4,7 @@ use super::map::{Cell, ViewMap, ViewMapError};
 use super::outline::Segment;
 use super::target::Target;
 use crate::geom::ImagePlane;
-use crate::index::{CellId, PointId};
+use crate::index::{CellId, PointId, VertexId};
 use crate::mesh::{TriMesh, face_neighbours};
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -54,7 +54,7 @@ pub fn arrange(
 
 /// Edges of wanted faces, each once, then the outlines.
 fn segments(target: &Target, wanted: &[bool], outlines: &[Segment]) -> Vec<Segment> {
-    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    let mut pairs: Vec<(VertexId, VertexId)> = Vec::new();
     for (face, _) in target.mesh.faces.iter().zip(wanted).filter(|(_, w)| **w) {
         for k in 0..3 {
             let (a, b) = (face[k], face[(k + 1) % 3]);
@@ -63,7 +63,7 @@ fn segments(target: &Target, wanted: &[bool], outlines: &[Segment]) -> Vec<Segme
     }
     pairs.sort_unstable();
     pairs.dedup();
-    let image = |v: u32| target.image[v as usize];
+    let image = |v: VertexId| target.image[v];
     pairs
         .iter()
         .map(|&(a, b)| [image(a), image(b)])
@@ -153,10 +153,13 @@ fn triangulate(
 pub fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
     let across = face_neighbours(&TriMesh {
         vertices: Vec::new(),
-        faces: cells.iter().map(|c| c.corners.map(|p| p.0)).collect(),
+        faces: cells
+            .iter()
+            .map(|c| c.corners.map(|p| VertexId(p.0)))
+            .collect(),
     });
     across
         .into_iter()
-        .map(|n| n.map(|c| c.map(CellId)))
+        .map(|n| n.map(|f| f.map(|f| CellId(f.0))))
         .collect()
 }

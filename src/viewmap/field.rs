@@ -44,14 +44,14 @@ impl<'a> SupportField<'a> {
 
     /// The ray's parameter at the plane of a face of the supports; not finite if they are parallel.
     pub fn facet_depth(&self, facet: FacetId, origin: DVec3, direction: DVec3) -> f64 {
-        let normal = self.mesh.area_vector(facet.at());
-        let corner = self.mesh.corners(facet.at())[0];
+        let normal = self.mesh.area_vector(FaceId(facet.0));
+        let corner = self.mesh.corners(FaceId(facet.0))[0];
         normal.dot(corner - origin) / normal.dot(direction)
     }
 
     /// As [`Self::first_hit`], of one support, whatever stands before it.
     pub fn hit_of(&self, support: SupportId, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let own = |face: usize| self.owner[face] == support;
+        let own = |face: FaceId| self.owner[face] == support;
         let hit = self.bvh.first_hit_where(origin, direction, own);
         hit.map(|h| h.t)
     }
@@ -66,7 +66,7 @@ impl<'a> SupportField<'a> {
     pub fn wall(&self, support: SupportId, origin: DVec3, direction: DVec3) -> Option<(Hit, Hit)> {
         let hits = self.bvh.all_hits(origin, direction).into_iter();
         let mut own = hits.filter(|h| self.owner[h.face] == support);
-        let leaves = |face: usize| self.mesh.area_vector(face).dot(direction) > 0.0;
+        let leaves = |face: FaceId| self.mesh.area_vector(face).dot(direction) > 0.0;
         Some((own.next()?, own.find(|h| leaves(h.face))?))
     }
 
@@ -79,7 +79,7 @@ impl<'a> SupportField<'a> {
     /// The part of its support that a face of the supports' mesh belongs to.
     pub fn part(&self, facet: FacetId) -> u32 {
         let support = self.owner[facet];
-        self.supports[support].part(facet.at() - self.first[support].at())
+        self.supports[support].part(FaceId(facet.0 - self.first[support].0))
     }
 
     /// Whether the layer of the support that a face belongs to follows its surface.

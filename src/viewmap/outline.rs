@@ -2,7 +2,7 @@
 
 use super::field::SupportField;
 use crate::geom::{ImagePlane, segment_crossing};
-use crate::index::{FacetId, SupportId};
+use crate::index::{FaceId, FacetId, SupportId};
 use crate::mesh::Edges;
 use crate::mesh::topology::HalfEdge;
 use crate::support::SupportKind;
@@ -75,17 +75,13 @@ fn far_outlines(plane: &ImagePlane, field: &SupportField, window: (DVec2, DVec2)
 /// Edges of faces turned away from the eye of supports whose layers go through walls, with their supports.
 fn far_edges(field: &SupportField, eye: DVec3) -> Vec<(SupportId, [DVec3; 2])> {
     let mesh = &field.mesh;
-    let owner = |sides: &[HalfEdge]| field.owner[sides[0].face as usize];
-    let away = |h: &HalfEdge| {
-        let face = h.face as usize;
-        mesh.area_vector(face).dot(eye - mesh.corners(face)[0]) <= 0.0
-    };
+    let owner = |sides: &[HalfEdge]| field.owner[sides[0].face];
+    let away = |h: &HalfEdge| mesh.area_vector(h.face).dot(eye - mesh.corners(h.face)[0]) <= 0.0;
     let edges = Edges::new(mesh);
     let wanted = edges
         .iter()
         .filter(|sides| field.goes_through(owner(sides)) && sides.iter().any(away));
-    let ends =
-        |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
+    let ends = |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v]);
     wanted.map(|sides| (owner(sides), ends(sides))).collect()
 }
 
@@ -107,17 +103,12 @@ fn is_in_wall(
 /// layer follows.
 fn silhouette(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
     let mesh = &field.mesh;
-    let faces_eye = |f: u32| {
-        mesh.area_vector(f as usize)
-            .dot(eye - mesh.corners(f as usize)[0])
-            > 0.0
-    };
+    let faces_eye = |f: FaceId| mesh.area_vector(f).dot(eye - mesh.corners(f)[0]) > 0.0;
     let on_outline = |sides: &&[HalfEdge]| {
         let front = sides.iter().filter(|h| faces_eye(h.face)).count();
         front == 1 || (front > 0 && (sides.len() != 2 || is_bent(field, sides)))
     };
-    let ends =
-        |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v as usize]);
+    let ends = |sides: &[HalfEdge]| [sides[0].low, sides[0].high].map(|v| mesh.vertices[v]);
     Edges::new(mesh)
         .iter()
         .filter(on_outline)
@@ -127,10 +118,12 @@ fn silhouette(field: &SupportField, eye: DVec3) -> Vec<[DVec3; 2]> {
 
 /// Whether a layer follows the surface round this edge, and its faces are not one plane; or whether parts meet there.
 fn is_bent(field: &SupportField, sides: &[HalfEdge]) -> bool {
-    let normal = |h: &HalfEdge| field.mesh.normal(h.face as usize);
+    let normal = |h: &HalfEdge| field.mesh.normal(h.face);
     let apart = |h: &HalfEdge| normal(h).distance(normal(&sides[0])) > PLANE;
-    let parted = |h: &HalfEdge| field.part(FacetId(h.face)) != field.part(FacetId(sides[0].face));
-    (field.is_shell(FacetId(sides[0].face)) && sides.iter().any(apart)) || sides.iter().any(parted)
+    let parted =
+        |h: &HalfEdge| field.part(FacetId(h.face.0)) != field.part(FacetId(sides[0].face.0));
+    (field.is_shell(FacetId(sides[0].face.0)) && sides.iter().any(apart))
+        || sides.iter().any(parted)
 }
 
 /// Where pillars stand on the base: no silhouette, but the support changes there.

@@ -7,7 +7,7 @@ use super::outline::seen_outlines;
 use super::target::Target;
 use super::thin::merge_thin;
 use crate::geom::{ImagePlane, barycentric};
-use crate::index::{CellId, FaceId, FacetId, PointId};
+use crate::index::{CellId, ComponentId, FaceId, FacetId, PointId};
 use crate::mesh::face_components;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -66,7 +66,7 @@ impl Looking<'_> {
     /// Faces seen at their centre or near a corner.
     fn seen_at_samples(&self) -> Vec<bool> {
         let target = self.target;
-        let is_seen = |f: usize| {
+        let is_seen = |f: FaceId| {
             let corners = target.image_of(f);
             let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
             let samples = [
@@ -75,12 +75,11 @@ impl Looking<'_> {
                 centre.lerp(corners[1], 0.9),
                 centre.lerp(corners[2], 0.9),
             ];
-            samples
-                .iter()
-                .any(|q| self.seen_face(*q) == Some(FaceId::new(f)))
+            samples.iter().any(|q| self.seen_face(*q) == Some(f))
         };
         (0..target.mesh.faces.len())
             .into_par_iter()
+            .map(FaceId::new)
             .map(|f| target.may_be_seen(f) && is_seen(f))
             .collect()
     }
@@ -91,7 +90,7 @@ impl Looking<'_> {
         let hit = target
             .bvh
             .first_hit_where(plane.eye, plane.direction(q), |f| target.may_be_seen(f));
-        hit.map(|h| FaceId::new(h.face))
+        hit.map(|h| h.face)
     }
 
     /// Labels every cell by a ray through its centre; gives the cells that stick out of their face.
@@ -103,7 +102,7 @@ impl Looking<'_> {
         };
         let sticks_out = |c: &CellId| {
             let face = map.cells[*c].face;
-            face.is_some_and(|f| !holds(self.target.image_of(f.at()), map.triangle(*c)))
+            face.is_some_and(|f| !holds(self.target.image_of(f), map.triangle(*c)))
         };
         CellId::all(map.cells.len()).filter(sticks_out).collect()
     }
@@ -120,8 +119,8 @@ impl Looking<'_> {
         Cell {
             face: self.seen_face(centre),
             support,
-            facet: hit.map(|h| FacetId::new(h.face)),
-            leaves: wall.map(|(_, leaves)| FacetId::new(leaves.face)),
+            facet: hit.map(|h| FacetId(h.face.0)),
+            leaves: wall.map(|(_, leaves)| FacetId(leaves.face.0)),
             support_depth: hit.map_or(f64::INFINITY, |h| h.t),
             ..map.cells[c]
         }
@@ -147,9 +146,9 @@ impl Looking<'_> {
 }
 
 /// Marks the corners of cells that lie on sides where the image of their component ends.
-fn mark_outlines(map: &mut ViewMap, component: &[u32]) {
+fn mark_outlines(map: &mut ViewMap, component: &[ComponentId]) {
     let of = |cell: &Cell| cell.face.map(|f| component[f]);
-    let mut marked: Vec<(PointId, u32)> = Vec::new();
+    let mut marked: Vec<(PointId, ComponentId)> = Vec::new();
     for (cell, across) in map.cells.iter().zip(&map.neighbours) {
         let Some(own) = of(cell) else { continue };
         for (k, next) in across.iter().enumerate() {

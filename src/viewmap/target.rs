@@ -2,6 +2,7 @@
 
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, orient};
+use crate::index::{FaceId, VertexId};
 use crate::mesh::{Edges, TriMesh};
 use crate::view::Marks;
 use glam::DVec2;
@@ -53,12 +54,12 @@ impl Target {
     }
 
     /// Factor on the weight of a vertex.
-    pub fn weight(&self, vertex: u32) -> f64 {
-        self.weights.get(vertex as usize).copied().unwrap_or(1.0)
+    pub fn weight(&self, vertex: VertexId) -> f64 {
+        self.weights.get(vertex.at()).copied().unwrap_or(1.0)
     }
 
     /// Factor on the weight of a face: the mean of its vertices'.
-    pub fn face_weight(&self, face: usize) -> f64 {
+    pub fn face_weight(&self, face: FaceId) -> f64 {
         if self.weights.is_empty() {
             return 1.0;
         }
@@ -67,17 +68,17 @@ impl Target {
     }
 
     /// Whether a vertex has no depth bounds.
-    pub fn is_free(&self, vertex: u32) -> bool {
-        self.free.get(vertex as usize) == Some(&true)
+    pub fn is_free(&self, vertex: VertexId) -> bool {
+        self.free.get(vertex.at()) == Some(&true)
     }
 
     /// The same surface as another mesh: `mesh` has a vertex at each of `vertices` of this one.
-    pub fn cut(&self, mesh: TriMesh, vertices: &[u32]) -> Self {
+    pub fn cut(&self, mesh: TriMesh, vertices: &[VertexId]) -> Self {
         Self {
             bvh: Bvh::new(&mesh),
             mesh,
-            image: vertices.iter().map(|v| self.image[*v as usize]).collect(),
-            depth: vertices.iter().map(|v| self.depth[*v as usize]).collect(),
+            image: vertices.iter().map(|v| self.image[*v]).collect(),
+            depth: vertices.iter().map(|v| self.depth[*v]).collect(),
             weights: picked(&self.weights, vertices),
             free: picked(&self.free, vertices),
             closed: false,
@@ -95,12 +96,12 @@ impl Target {
         (lo - margin, hi + margin)
     }
 
-    pub fn image_of(&self, face: usize) -> [DVec2; 3] {
-        self.mesh.faces[face].map(|v| self.image[v as usize])
+    pub fn image_of(&self, face: FaceId) -> [DVec2; 3] {
+        self.mesh.faces[face].map(|v| self.image[v])
     }
 
     /// Whether the face could be seen from the eye if nothing stood before it.
-    pub(super) fn may_be_seen(&self, face: usize) -> bool {
+    pub(super) fn may_be_seen(&self, face: FaceId) -> bool {
         let [a, b, c] = self.image_of(face);
         let turn = orient(a, b, c);
         turn > 0.0 || (turn < 0.0 && !self.closed)
@@ -108,9 +109,9 @@ impl Target {
 }
 
 /// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[u32]) -> Vec<T> {
+fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
     if list.is_empty() {
         return Vec::new();
     }
-    vertices.iter().map(|v| list[*v as usize]).collect()
+    vertices.iter().map(|v| list[*v]).collect()
 }

@@ -3,6 +3,7 @@
 use crate::shapes::ball;
 use glam::{DVec2, DVec3};
 use pillarforest::diag::Warned;
+use pillarforest::index::VertexId;
 use pillarforest::intake::{Admitted, load_original};
 use pillarforest::mesh::NO_UV;
 
@@ -27,7 +28,7 @@ fn obj_keeps_its_order_colours_and_the_texture_points_of_corners() {
     let read = loaded("strip.obj", text.as_bytes()).value.original;
     let xs: Vec<f64> = read.mesh.vertices.iter().map(|v| v.x).collect();
     assert_eq!(xs, [2.0, 1.0, 0.0, 0.0, 2.0]);
-    assert_eq!(read.mesh.faces[0], [2, 1, 3]);
+    assert_eq!(read.mesh.faces[0], [2, 1, 3].map(VertexId));
     assert_eq!(read.mesh.faces.len(), 3);
     let uvs = read.attributes.uvs.as_ref().expect("texture points");
     assert_eq!(uvs.corners[0], [0, 1, 3]);
@@ -163,16 +164,15 @@ fn ply_keeps_colours_texture_points_and_every_other_number() {
 
 /// A ball taken apart into single triangles in a scrambled order, with the number of its vertex in the ball at every corner,
 /// some corners a hair off, a stray vertex, a face twice and a face of one edge.
-fn soup() -> (String, Vec<u32>) {
+fn soup() -> (String, Vec<VertexId>) {
     let ball = ball(DVec3::ZERO, 10.0, 6);
     let n = ball.faces.len();
     let (mut vertices, mut faces, mut came_from) = (String::new(), String::new(), Vec::new());
     let order: Vec<usize> = (0..n).map(|k| (k * 7 + 3) % n).chain([5]).collect();
     for (k, f) in order.iter().enumerate() {
         for v in ball.faces[*f] {
-            let p = ball.vertices[v as usize]
-                + DVec3::splat(if k % 5 == 0 && k < n { 3e-6 } else { 0.0 });
-            vertices += &format!("{:?} {:?} {:?} {v}\n", p.x, p.y, p.z);
+            let p = ball.vertices[v] + DVec3::splat(if k % 5 == 0 && k < n { 3e-6 } else { 0.0 });
+            vertices += &format!("{:?} {:?} {:?} {}\n", p.x, p.y, p.z, v.0);
             came_from.push(v);
         }
         faces += &format!("3 {} {} {}\n", 3 * k, 3 * k + 1, 3 * k + 2);
@@ -199,7 +199,7 @@ fn attributes_follow_vertices_through_repairs() {
     // What was one vertex of the ball is one again, near where it was.
     let mut number = vec![None; mesh.vertices.len()];
     for (k, ball_vertex) in came_from.iter().enumerate() {
-        let v = original.vertex_of[k].expect("a vertex of the model") as usize;
+        let v = original.vertex_of[k].expect("a vertex of the model");
         assert!(mesh.vertices[v].distance(original.mesh.vertices[k]) < 1e-5);
         assert_eq!(*number[v].get_or_insert(*ball_vertex), *ball_vertex);
     }
@@ -209,15 +209,15 @@ fn attributes_follow_vertices_through_repairs() {
     for (v, number) in number.iter().enumerate() {
         assert_eq!(
             quality[v],
-            f64::from(number.expect("every vertex comes from one"))
+            f64::from(number.expect("every vertex comes from one").0)
         );
     }
     // Every face of the model is one of the file, by its vertices; only the doubled and the broken one are nobody's.
     let faces = original.faces_of(mesh);
     assert_eq!(faces.len(), original.mesh.faces.len() - 2);
     for (face, from) in mesh.faces.iter().zip(faces) {
-        let from = original.mesh.faces[from.expect("a face of the file") as usize];
-        let became = from.map(|v| original.vertex_of[v as usize]);
+        let from = original.mesh.faces[from.expect("a face of the file")];
+        let became = from.map(|v| original.vertex_of[v]);
         assert!(face.iter().all(|v| became.contains(&Some(*v))));
     }
 }
@@ -230,7 +230,7 @@ fn merged_vertices_have_the_mean_of_their_values() {
         .replace("\n3 0 2 1\n", "\n0 0 0 0 255 0 0 255 0 0 1.5 9\n3 4 2 1\n");
     let original = loaded("tetra.ply", text.as_bytes()).value.original;
     assert_eq!(original.vertex_of[0], original.vertex_of[4]);
-    let at = original.vertex_of[0].expect("a vertex") as usize;
+    let at = original.vertex_of[0].expect("a vertex");
     assert_eq!(original.values("weight", 4).expect("weights")[at], 0.75);
 }
 

@@ -39,15 +39,15 @@ fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
 /// An upright square of 80 mm that looks along -y, with a border.
 fn sheet() -> TriMesh {
     let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
-    TriMesh {
-        vertices: vec![
+    TriMesh::new(
+        vec![
             corner(-40.0, 0.0),
             corner(40.0, 0.0),
             corner(40.0, 80.0),
             corner(-40.0, 80.0),
         ],
-        faces: vec![[0, 1, 2], [0, 2, 3]],
-    }
+        [[0, 1, 2], [0, 2, 3]],
+    )
 }
 
 /// A PNG that is black on the left and white on the right.

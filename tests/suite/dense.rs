@@ -1,6 +1,7 @@
 //! Dense rays from an eye by rasterising triangles: slow to be exact, quick to be dense, and nothing of the program in it.
 
 use glam::{DVec2, DVec3};
+use pillarforest::index::FaceId;
 use pillarforest::mesh::TriMesh;
 use pillarforest::support::{Datum, Support, SupportKind};
 
@@ -77,7 +78,7 @@ impl Raster {
     pub fn cast<'a>(&self, meshes: impl IntoIterator<Item = (u32, &'a TriMesh)>) -> Hits {
         let mut hits = self.nothing();
         for (owner, mesh) in meshes {
-            for face in 0..mesh.faces.len() {
+            for face in FaceId::all(mesh.faces.len()) {
                 self.draw_face(mesh, face, owner, &mut hits);
             }
         }
@@ -87,15 +88,15 @@ impl Raster {
     /// First hits with the faces of a mesh, each its own owner.
     pub fn cast_faces(&self, mesh: &TriMesh) -> Hits {
         let mut hits = self.nothing();
-        for face in 0..mesh.faces.len() {
-            self.draw_face(mesh, face, face as u32, &mut hits);
+        for face in FaceId::all(mesh.faces.len()) {
+            self.draw_face(mesh, face, face.0, &mut hits);
         }
         hits
     }
 
     /// Depth at which a ray meets the plane of a face.
     pub fn plane_depth(&self, mesh: &TriMesh, face: u32, ray: usize) -> f64 {
-        let [a, b, c] = mesh.corners(face as usize);
+        let [a, b, c] = mesh.corners(FaceId(face));
         let normal = (b - a).cross(c - a);
         normal.dot(a - self.eye) / normal.dot(self.direction(ray))
     }
@@ -107,7 +108,7 @@ impl Raster {
         }
     }
 
-    fn draw_face(&self, mesh: &TriMesh, face: usize, owner: u32, hits: &mut Hits) {
+    fn draw_face(&self, mesh: &TriMesh, face: FaceId, owner: u32, hits: &mut Hits) {
         let front = cut(&mesh.corners(face).map(|p| self.turned(p)));
         for k in 1..front.len().saturating_sub(1) {
             self.draw([front[0], front[k], front[k + 1]], owner, hits);

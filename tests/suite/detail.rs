@@ -4,6 +4,7 @@ use super::shapes::{CUBE_FACES, ball};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::diag::Diagnostic;
+use pillarforest::index::{FaceId, VertexId};
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Edges, Simplified, Solid, TriMesh, simplified};
 use pillarforest::scene::{self, Quality, Scene, at_quality};
@@ -17,7 +18,7 @@ fn small(mesh: &TriMesh, most: usize) -> Simplified {
     );
     assert!(small.vertices.is_sorted_by(|a, b| a < b));
     for (own, from) in small.mesh.vertices.iter().zip(&small.vertices) {
-        assert_eq!(*own, mesh.vertices[*from as usize], "where it was");
+        assert_eq!(*own, mesh.vertices[*from], "where it was");
     }
     small
 }
@@ -26,7 +27,7 @@ fn small(mesh: &TriMesh, most: usize) -> Simplified {
 fn mean_error(mesh: &TriMesh, small: &TriMesh) -> f64 {
     let bvh = Bvh::new(small);
     let (mut sum, mut count) = (0.0, 0.0);
-    for face in (0..mesh.faces.len()).step_by(17) {
+    for face in FaceId::all(mesh.faces.len()).step_by(17) {
         let [a, b, c] = mesh.corners(face);
         let (at, normal) = ((a + b + c) / 3.0, mesh.normal(face));
         let hits = [1.0, -1.0].map(|way| bvh.first_hit(at + 2.0 * way * normal, -way * normal));
@@ -81,7 +82,8 @@ fn sheet() -> TriMesh {
     for j in 0..20 {
         for i in 0..20 {
             let a = 21 * j + i;
-            mesh.faces.extend([[a, a + 1, a + 22], [a, a + 22, a + 21]]);
+            mesh.faces
+                .extend([[a, a + 1, a + 22], [a, a + 22, a + 21]].map(|f| f.map(VertexId)));
         }
     }
     mesh
@@ -96,7 +98,7 @@ fn borders_stay_where_they_are() {
     let edges = Edges::new(&small);
     let mut length = 0.0;
     for sides in edges.iter().filter(|sides| sides.len() == 1) {
-        let [a, b] = [sides[0].low, sides[0].high].map(|v| small.vertices[v as usize]);
+        let [a, b] = [sides[0].low, sides[0].high].map(|v| small.vertices[v]);
         assert!(on_border(a) && on_border(b), "{a} {b}");
         length += a.truncate().distance(b.truncate());
     }
@@ -115,10 +117,7 @@ fn surfaces_that_touch_go_on_touching() {
     for shift in [DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)] {
         let corner =
             |k: u32| shift + DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
-        mesh.append(&TriMesh {
-            vertices: (0..8).map(corner).collect(),
-            faces: CUBE_FACES.to_vec(),
-        });
+        mesh.append(&TriMesh::new((0..8).map(corner).collect(), CUBE_FACES));
     }
     let mesh = load_model("cubes.obj", &obj(&mesh), false)
         .expect("a model")
@@ -141,7 +140,7 @@ fn obj(mesh: &TriMesh) -> Vec<u8> {
         let red = if v.z > 0.0 { 1 } else { 0 };
         format!("v {} {} {} {red} 0 1\n", v.x, v.y, v.z)
     });
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    let face = |f: &[VertexId; 3]| format!("f {} {} {}\n", f[0].0 + 1, f[1].0 + 1, f[2].0 + 1);
     vertices
         .chain(mesh.faces.iter().map(face))
         .collect::<String>()
@@ -186,7 +185,7 @@ fn scenes_say_how_many_vertices_models_may_have() {
         assert_eq!(lowered, (count < full).then_some(full));
         // Regions and colours follow.
         for (v, point) in original.mesh.vertices.iter().enumerate() {
-            let at = original.vertex_of[v].expect("used") as usize;
+            let at = original.vertex_of[v].expect("used");
             let inside = point.distance(DVec3::new(0.0, 0.0, 20.0)) <= 9.0;
             assert_eq!(model.marks.weights[at], if inside { 3.0 } else { 1.0 });
             let red = f64::from(u8::from(point.z > 0.0));

@@ -32,7 +32,7 @@ impl Balls {
         let geometry = FaceGeometry::new(&mesh);
         for (f, face) in mesh.faces.iter().enumerate() {
             for k in 0..3 {
-                let (i, j) = (face[(k + 1) % 3] as usize, face[(k + 2) % 3] as usize);
+                let (i, j) = (face[(k + 1) % 3].at(), face[(k + 2) % 3].at());
                 let c = geometry.cotangents[f][k] / 2.0;
                 lap.add_triplet(i, i, c);
                 lap.add_triplet(j, j, c);

@@ -4,6 +4,7 @@ use crate::shapes::{MIDDLE, Outcome, Setting, ball, bumpy, flat_layer, prism, wa
 use glam::{DMat3, DVec2, DVec3};
 use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::geom::solid_angle;
+use pillarforest::index::{FaceId, VertexId};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
@@ -110,10 +111,7 @@ fn divided_box(half: f64) -> TriMesh {
         let p = p.map(|x| half * (2.0 * f64::from(x) / f64::from(n) - 1.0));
         MIDDLE + turn * DVec3::from_array(p)
     };
-    TriMesh {
-        vertices: places.iter().map(place).collect(),
-        faces,
-    }
+    TriMesh::new(places.iter().map(place).collect(), faces)
 }
 
 #[test]
@@ -177,7 +175,7 @@ fn curvature_energy(
         let mut sums = vec![DVec3::ZERO; mesh.vertices.len()];
         for (f, face) in mesh.faces.iter().enumerate() {
             for k in 0..3 {
-                let (i, j) = (face[(k + 1) % 3] as usize, face[(k + 2) % 3] as usize);
+                let (i, j) = (face[(k + 1) % 3].at(), face[(k + 2) % 3].at());
                 let flow = geometry.cotangents[f][k] / 2.0 * (at(j) - at(i));
                 sums[i] += flow / areas[i];
                 sums[j] -= flow / areas[j];
@@ -201,16 +199,16 @@ fn curvature_energy(
 fn hidden(outcome: &Outcome) -> Vec<bool> {
     let (mesh, map) = (&outcome.target().mesh, outcome.map());
     let mut shares = vec![0.0; mesh.vertices.len()];
-    let mut add = |face: usize, share: f64| {
+    let mut add = |face: FaceId, share: f64| {
         let corners = mesh.faces[face];
-        corners.iter().for_each(|v| shares[*v as usize] += share);
+        corners.iter().for_each(|v| shares[*v] += share);
     };
     for (c, cell) in map.all() {
         if let Some(face) = cell.face {
-            add(face.at(), 2.0 * map.solid_angle(c));
+            add(face, 2.0 * map.solid_angle(c));
         }
     }
-    for face in 0..mesh.faces.len() {
+    for face in FaceId::all(mesh.faces.len()) {
         let [a, b, c] = mesh.corners(face).map(|p| p - map.plane.eye);
         add(face, -solid_angle(a, b, c).max(0.0));
     }
@@ -225,7 +223,7 @@ fn with_a_loose_layer_the_model_itself_is_the_result() {
         let outcome = Setting::roomy().solved(energy);
         let seen = outcome.map().cells.iter().filter_map(|c| c.face);
         let corners = seen.flat_map(|f| outcome.target().mesh.faces[f]);
-        let s = corners.map(|v| outcome.depths.s[v as usize]);
+        let s = corners.map(|v| outcome.depths.s[v]);
         let (lo, hi) = s.fold((f64::MAX, f64::MIN), |(lo, hi), s| (lo.min(s), hi.max(s)));
         assert!(hi / lo - 1.0 < 1e-3, "{energy:?}: {lo} to {hi}");
     }
@@ -394,7 +392,7 @@ fn ridge(left: f64, right: f64) -> TriMesh {
         mesh.vertices
             .push(MIDDLE + DVec3::new(x, -rise, f64::from(j) - 6.0));
     }
-    let at = |i: i32, j: i32| (j * (n + 1) + i) as u32;
+    let at = |i: i32, j: i32| VertexId((j * (n + 1) + i) as u32);
     for (i, j) in (0..m).flat_map(|j| (0..n).map(move |i| (i, j))) {
         mesh.faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
         mesh.faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);

@@ -6,6 +6,7 @@ use gltf_json::validation::Validate;
 use pillarforest::formats::{
     Camera, Lens, Metadata, Part, ZipTime, read_bodies, read_mesh, write_3mf, write_glb, write_stl,
 };
+use pillarforest::index::{FaceId, VertexId};
 use pillarforest::mesh::Solid;
 use quick_xml::events::{BytesStart, Event};
 use std::io::Read;
@@ -46,7 +47,7 @@ fn stl_has_the_layout_and_the_bits_of_the_mesh() {
         mesh.faces.len()
     );
     assert_eq!(bytes.len(), 84 + 50 * mesh.faces.len());
-    for (face, record) in bytes[84..].chunks_exact(50).enumerate() {
+    for (face, record) in FaceId::all(mesh.faces.len()).zip(bytes[84..].chunks_exact(50)) {
         let floats: Vec<f32> = record[..48]
             .chunks_exact(4)
             .map(|c| f32::from_le_bytes(c.try_into().unwrap()))
@@ -106,7 +107,7 @@ struct Object {
     name: String,
     pid: String,
     vertices: Vec<[f32; 3]>,
-    faces: Vec<[u32; 3]>,
+    faces: Vec<[VertexId; 3]>,
 }
 
 fn read_model(xml: &[u8]) -> Model {
@@ -124,47 +125,46 @@ fn read_model(xml: &[u8]) -> Model {
                 model.metadata.last_mut().unwrap().1 +=
                     quick_xml::escape::resolve_predefined_entity(&name).unwrap();
             }
-            Event::Start(e) | Event::Empty(e) => match e.name().as_ref() {
-                b"model" => model.unit = attribute(&e, "unit"),
-                b"metadata" => {
-                    in_metadata = true;
-                    model.metadata.push((attribute(&e, "name"), String::new()));
+            Event::Start(e) | Event::Empty(e) => {
+                match e.name().as_ref() {
+                    b"model" => model.unit = attribute(&e, "unit"),
+                    b"metadata" => {
+                        in_metadata = true;
+                        model.metadata.push((attribute(&e, "name"), String::new()));
+                    }
+                    b"m:colorgroup" => model.groups.push((attribute(&e, "id"), Vec::new())),
+                    b"m:color" => model
+                        .groups
+                        .last_mut()
+                        .unwrap()
+                        .1
+                        .push(attribute(&e, "color")),
+                    b"object" => {
+                        assert_eq!(attribute(&e, "pindex"), "0");
+                        model.objects.push(Object {
+                            id: attribute(&e, "id"),
+                            name: attribute(&e, "name"),
+                            pid: attribute(&e, "pid"),
+                            ..Object::default()
+                        });
+                    }
+                    b"vertex" => model
+                        .objects
+                        .last_mut()
+                        .unwrap()
+                        .vertices
+                        .push(["x", "y", "z"].map(|n| attribute(&e, n).parse().unwrap())),
+                    b"triangle" => model.objects.last_mut().unwrap().faces.push(
+                        ["v1", "v2", "v3"].map(|n| VertexId(attribute(&e, n).parse().unwrap())),
+                    ),
+                    b"item" => {
+                        assert_eq!(e.attributes().count(), 1, "no transform");
+                        model.items.push(attribute(&e, "objectid"));
+                    }
+                    b"resources" | b"mesh" | b"vertices" | b"triangles" | b"build" => {}
+                    other => panic!("unexpected element {}", String::from_utf8_lossy(other)),
                 }
-                b"m:colorgroup" => model.groups.push((attribute(&e, "id"), Vec::new())),
-                b"m:color" => model
-                    .groups
-                    .last_mut()
-                    .unwrap()
-                    .1
-                    .push(attribute(&e, "color")),
-                b"object" => {
-                    assert_eq!(attribute(&e, "pindex"), "0");
-                    model.objects.push(Object {
-                        id: attribute(&e, "id"),
-                        name: attribute(&e, "name"),
-                        pid: attribute(&e, "pid"),
-                        ..Object::default()
-                    });
-                }
-                b"vertex" => model
-                    .objects
-                    .last_mut()
-                    .unwrap()
-                    .vertices
-                    .push(["x", "y", "z"].map(|n| attribute(&e, n).parse().unwrap())),
-                b"triangle" => model
-                    .objects
-                    .last_mut()
-                    .unwrap()
-                    .faces
-                    .push(["v1", "v2", "v3"].map(|n| attribute(&e, n).parse().unwrap())),
-                b"item" => {
-                    assert_eq!(e.attributes().count(), 1, "no transform");
-                    model.items.push(attribute(&e, "objectid"));
-                }
-                b"resources" | b"mesh" | b"vertices" | b"triangles" | b"build" => {}
-                other => panic!("unexpected element {}", String::from_utf8_lossy(other)),
-            },
+            }
             _ => {}
         }
         buffer.clear();

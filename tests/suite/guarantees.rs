@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use ndarray::{Array1, Array2};
 use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
 use pillarforest::geom::barycentric;
-use pillarforest::index::{CellId, FaceId, GroupId};
+use pillarforest::index::{CellId, FaceId, GroupId, VertexId};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mesh::gate::gate;
@@ -145,12 +145,12 @@ fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) 
     }
     seen.sort_unstable();
     seen.dedup();
-    let depth_on = |face: FaceId, q: DVec2, s: &dyn Fn(u32) -> f64| {
-        let [a, b, c] = target.image_of(face.at());
+    let depth_on = |face: FaceId, q: DVec2, s: &dyn Fn(VertexId) -> f64| {
+        let [a, b, c] = target.image_of(face);
         let beta = barycentric(a, b, c, q).to_array();
         let v = target.mesh.faces[face];
         let inverse: f64 = (0..3)
-            .map(|k| beta[k] / (s(v[k]) * target.depth[v[k] as usize]))
+            .map(|k| beta[k] / (s(v[k]) * target.depth[v[k]]))
             .sum();
         (beta.iter().all(|x| *x > 1e-6)).then_some(1.0 / inverse)
     };
@@ -158,7 +158,7 @@ fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) 
     let (mut wrong, mut met) = (0, 0);
     for _ in 0..rays {
         let (face, _) = seen[numbers.below(seen.len())];
-        let (beta, corners) = (numbers.inside(), target.image_of(face.at()));
+        let (beta, corners) = (numbers.inside(), target.image_of(face));
         let q: DVec2 = (0..3).map(|k| beta[k] * corners[k]).sum();
         let Some((support, _)) = field.first_hit(setting.eye, map.plane.direction(q)) else {
             continue;
@@ -168,7 +168,7 @@ fn inverted(setting: &Setting, solved: &Outcome, rays: usize) -> (usize, usize) 
             .filter(|(_, g)| groups.groups[*g].support == support)
             .filter_map(|(f, g)| {
                 let model = depth_on(*f, q, &|_| 1.0)?;
-                let made = depth_on(*f, q, &|v| depths.s[v as usize])?;
+                let made = depth_on(*f, q, &|v| depths.s[v])?;
                 Some((model, made / depths.mu[*g]))
             })
             .collect();
@@ -236,17 +236,16 @@ fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
         order
     };
     let (vertices, faces) = (shuffle(mesh.vertices.len()), shuffle(mesh.faces.len()));
-    let mut number = vec![0; vertices.len()];
-    vertices
-        .iter()
-        .enumerate()
-        .for_each(|(new, old)| number[*old] = new as u32);
+    let mut number = vec![VertexId(0); vertices.len()];
+    VertexId::all(vertices.len())
+        .zip(&vertices)
+        .for_each(|(new, old)| number[*old] = new);
     TriMesh {
         vertices: vertices.iter().map(|v| mesh.vertices[*v]).collect(),
         faces: faces
             .iter()
             .map(|f| {
-                let [a, b, c] = mesh.faces[*f].map(|v| number[v as usize]);
+                let [a, b, c] = mesh.faces[*f].map(|v| number[v]);
                 [[a, b, c], [b, c, a], [c, a, b]][f % 3]
             })
             .collect(),
@@ -289,7 +288,7 @@ fn program(limits: &[f64]) -> Program {
     let mut quadratic = sprs::TriMat::new((n, n));
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
-            let (i, j) = (face[(k + 1) % 3] as usize, face[(k + 2) % 3] as usize);
+            let (i, j) = (face[(k + 1) % 3].at(), face[(k + 2) % 3].at());
             let c = geometry.cotangents[f][k];
             quadratic.add_triplet(i, i, c);
             quadratic.add_triplet(j, j, c);

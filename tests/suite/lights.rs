@@ -7,6 +7,7 @@ use pillarforest::bvh::Bvh;
 use pillarforest::compile::build;
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::ImagePlane;
+use pillarforest::index::FaceId;
 use pillarforest::mesh::TriMesh;
 use pillarforest::render::caster::{Caster, Meet, sky, sun};
 use pillarforest::render::flash::Flash;
@@ -18,15 +19,15 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// A rectangle about `middle` with half sides `a` and `b`; its normal is that of `a x b`.
 fn rectangle(middle: DVec3, a: DVec3, b: DVec3) -> TriMesh {
-    TriMesh {
-        vertices: vec![
+    TriMesh::new(
+        vec![
             middle - a - b,
             middle + a - b,
             middle + a + b,
             middle - a + b,
         ],
-        faces: vec![[0, 1, 2], [0, 2, 3]],
-    }
+        [[0, 1, 2], [0, 2, 3]],
+    )
 }
 
 /// A level floor at z = 0.
@@ -139,9 +140,9 @@ fn shadows_keep_to_the_wall_to_within_a_hair() {
 fn a_free_floor_gets_all_of_the_sky_and_a_free_wall_half() {
     let lone = |mesh: TriMesh| {
         let meet = Meet {
-            face: 0,
+            face: FaceId(0),
             place: (mesh.vertices[0] + mesh.vertices[2]) / 2.0,
-            normal: mesh.normal(0),
+            normal: mesh.normal(FaceId(0)),
         };
         overcast(&mesh, &meet)
     };

@@ -2,6 +2,7 @@
 
 use crate::shapes::CUBE_FACES;
 use glam::{DMat4, DQuat, DVec2, DVec3};
+use pillarforest::index::{ComponentId, FaceId, VertexId};
 use pillarforest::mesh::gate::gate;
 use pillarforest::mesh::polygon::triangulate_outline;
 use pillarforest::mesh::separate::separate;
@@ -17,8 +18,7 @@ fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
         .map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
         .map(|p| DVec3::from(at) + p * DVec3::from(size))
         .collect();
-    let faces = CUBE_FACES.to_vec();
-    TriMesh { vertices, faces }
+    TriMesh::new(vertices, CUBE_FACES)
 }
 
 fn cube() -> TriMesh {
@@ -47,7 +47,7 @@ fn bumpy_sphere(columns: u32, rows: u32, bump: f64) -> TriMesh {
         vertices: vec![DVec3::NEG_Z * 10.0, DVec3::Z * 10.0],
         faces: Vec::new(),
     };
-    let at = |c: u32, r: u32| 2 + r * columns + c % columns;
+    let at = |c: u32, r: u32| VertexId(2 + r * columns + c % columns);
     for r in 0..rows {
         for c in 0..columns {
             let latitude = (f64::from(r + 1) / f64::from(rows + 1) - 0.5) * std::f64::consts::PI;
@@ -68,8 +68,9 @@ fn bumpy_sphere(columns: u32, rows: u32, bump: f64) -> TriMesh {
         }
     }
     for c in 0..columns {
-        mesh.faces.push([0, at(c + 1, 0), at(c, 0)]);
-        mesh.faces.push([1, at(c, rows - 1), at(c + 1, rows - 1)]);
+        mesh.faces.push([VertexId(0), at(c + 1, 0), at(c, 0)]);
+        mesh.faces
+            .push([VertexId(1), at(c, rows - 1), at(c + 1, rows - 1)]);
     }
     mesh
 }
@@ -85,7 +86,7 @@ fn each_defect_is_found_and_nothing_else() {
         found(&mesh)
     };
     assert_eq!(with(|m| m.vertices[0].x = f64::NAN), [(NonFinite, 1)]);
-    assert_eq!(with(|m| m.faces[3][1] = 8), [(BadIndex, 1)]);
+    assert_eq!(with(|m| m.faces[3][1] = VertexId(8)), [(BadIndex, 1)]);
     assert_eq!(
         with(|m| m.vertices.push(DVec3::ZERO)),
         [(UnreferencedVertex, 1)]
@@ -98,11 +99,11 @@ fn each_defect_is_found_and_nothing_else() {
     );
     assert_eq!(with(|m| m.faces[0].swap(0, 1)), [(MixedWinding, 3)]);
     assert_eq!(
-        with(|m| m.faces.push([0, 0, 1])),
+        with(|m| m.faces.push([0, 0, 1].map(VertexId))),
         [(RepeatedIndex, 1), (CrowdedEdge, 1)]
     );
     assert_eq!(
-        with(|m| m.faces.push([0, 2, 3])),
+        with(|m| m.faces.push([0, 2, 3].map(VertexId))),
         [(DuplicateFace, 1), (CrowdedEdge, 3)]
     );
     assert_eq!(found(&turned_inside_out(cube())), [(InsideOut, 1)]);
@@ -150,15 +151,15 @@ fn shells_are_sound_by_how_they_lie() {
 #[test]
 fn touching_by_less_than_nothing_counts_and_a_gap_does_not() {
     let pairs = |height: f64| {
-        let spike = TriMesh {
-            vertices: vec![
+        let spike = TriMesh::new(
+            vec![
                 DVec3::new(3.0, 4.0, height),
                 DVec3::new(3.0, 5.0, 30.0),
                 DVec3::new(4.0, 4.0, 30.0),
                 DVec3::new(2.0, 3.0, 30.0),
             ],
-            faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
-        };
+            [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        );
         self_intersections(&both(cube(), &spike), usize::MAX).len()
     };
     assert_eq!(pairs(20.0_f64.next_up()), 0);
@@ -176,10 +177,7 @@ fn coplanar_faces_intersect_if_they_overlap() {
             at(2.0, 3.0),
             at(apex[0], apex[1]),
         ];
-        let sheet = TriMesh {
-            vertices,
-            faces: vec![[0, 1, 2], [1, 0, 3]],
-        };
+        let sheet = TriMesh::new(vertices, [[0, 1, 2], [1, 0, 3]]);
         // Rounded to f32 the plane is lost; level it exactly.
         let flat = sheet.vertices.iter().map(|v| v.with_z(0.0)).collect();
         self_intersections(
@@ -207,10 +205,10 @@ fn intersections_do_not_depend_on_place_order_or_limit() {
     assert!(all.len() > 50 && all.is_sorted() && all.iter().all(|[p, q]| p < q));
     let mut reversed = pair.clone();
     reversed.faces.reverse();
-    let last = pair.faces.len() as u32 - 1;
-    let mut mirrored: Vec<[u32; 2]> = self_intersections(&reversed, usize::MAX)
+    let turned = |f: FaceId| FaceId::new(pair.faces.len() - 1 - f.at());
+    let mut mirrored: Vec<[FaceId; 2]> = self_intersections(&reversed, usize::MAX)
         .iter()
-        .map(|[p, q]| [last - q, last - p])
+        .map(|[p, q]| [turned(*q), turned(*p)])
         .collect();
     mirrored.sort_unstable();
     assert_eq!(mirrored, all);
@@ -239,14 +237,12 @@ fn a_solid_survives_being_written_as_f32() {
     assert!((solid.area_mm2() / mesh.area() - 1.0).abs() < 1e-6);
     assert_eq!((solid.parts(), solid.cavities()), (1, 0));
     // Triangle soup, as STL has it, is the same body; an open one is none.
-    let soup = TriMesh {
-        vertices: (0..mesh.faces.len())
+    let soup = TriMesh::new(
+        FaceId::all(mesh.faces.len())
             .flat_map(|f| mesh.corners(f))
             .collect(),
-        faces: (0..mesh.faces.len() as u32)
-            .map(|f| [3 * f, 3 * f + 1, 3 * f + 2])
-            .collect(),
-    };
+        (0..mesh.faces.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]),
+    );
     assert_eq!(Solid::new(soup).unwrap().volume_mm3(), solid.volume_mm3());
     let mut open = mesh;
     open.faces.pop();
@@ -261,13 +257,13 @@ fn snapping_collapses_what_f32_cannot_hold() {
         bumpy_sphere(30, 15, 0.0).transformed(DMat4::from_translation(DVec3::splat(100.0 / 3.0)));
     // Splits an edge so close to its end that f32 cannot tell.
     let [a, b, c] = mesh.faces[0];
-    let neighbour = face_neighbours(&mesh)[0][0].unwrap() as usize;
+    let neighbour = face_neighbours(&mesh)[0][0].unwrap();
     let d = *mesh.faces[neighbour]
         .iter()
         .find(|v| ![a, b].contains(v))
         .unwrap();
-    let (p, q) = (mesh.vertices[a as usize], mesh.vertices[b as usize]);
-    let m = mesh.vertices.len() as u32;
+    let (p, q) = (mesh.vertices[a], mesh.vertices[b]);
+    let m = VertexId::new(mesh.vertices.len());
     mesh.vertices.push(p.lerp(q, 1e-12));
     mesh.faces[0] = [a, m, c];
     mesh.faces[neighbour] = [m, a, d];
@@ -288,17 +284,20 @@ fn topology_tells_what_hangs_together() {
     let components = face_components(&two);
     assert_eq!(
         (components[0], components[12], components.iter().max()),
-        (0, 1, Some(&1))
+        (ComponentId(0), ComponentId(1), Some(&ComponentId(1)))
     );
     let neighbours = face_neighbours(&cube());
-    for (face, around) in neighbours.iter().enumerate() {
-        for next in around.map(|n| n.unwrap() as usize) {
-            assert!(neighbours[next].contains(&Some(face as u32)));
+    for (face, around) in FaceId::all(neighbours.len()).zip(&neighbours) {
+        for next in around.map(|n| n.unwrap()) {
+            assert!(neighbours[next].contains(&Some(face)));
         }
     }
     let mut stray = cube();
     stray.vertices.insert(0, DVec3::ONE);
-    stray.faces.iter_mut().for_each(|f| *f = f.map(|v| v + 1));
+    stray
+        .faces
+        .iter_mut()
+        .for_each(|f| *f = f.map(|v| VertexId(v.0 + 1)));
     let (parts, part_of) = vertex_parts(&stray);
     assert_eq!((parts, part_of[0], part_of[1]), (1, u32::MAX, 0));
 }
@@ -308,13 +307,16 @@ fn welding_keeps_to_its_tolerance() {
     let row: Vec<DVec3> = (0..10)
         .map(|k| DVec3::new(f64::from(k) * 0.6, 0.0, 0.0))
         .collect();
-    let mesh = TriMesh {
-        vertices: row,
-        faces: vec![[0, 1, 9]],
-    };
+    let mesh = TriMesh::new(row, [[0, 1, 9]]);
     let welded = weld(&mesh, 1.0);
-    assert_eq!(welded.vertex_of, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4]);
-    assert_eq!((welded.merged, welded.mesh.faces[0]), (5, [0, 0, 4]));
+    assert_eq!(
+        welded.vertex_of,
+        [0, 0, 1, 1, 2, 2, 3, 3, 4, 4].map(VertexId)
+    );
+    assert_eq!(
+        (welded.merged, welded.mesh.faces[0]),
+        (5, [0, 0, 4].map(VertexId))
+    );
     let zeros = TriMesh {
         vertices: vec![DVec3::ZERO, -DVec3::ZERO],
         faces: Vec::new(),
@@ -364,13 +366,10 @@ fn the_gate_repairs_and_says_so() {
     let far = cuboid([1e7; 3], [20.0; 3]);
     assert_eq!(gate(far.clone()).unwrap().mesh.volume(), far.volume());
     let mut cracked = TriMesh::default();
-    for face in 0..12 {
-        let shift = DVec3::splat(1e-6 * f64::from(face % 3));
-        let [a, b, c] = cube().corners(face as usize).map(|p| p + shift);
-        cracked.append(&TriMesh {
-            vertices: vec![a, b, c],
-            faces: vec![[0, 1, 2]],
-        });
+    for face in FaceId::all(12) {
+        let shift = DVec3::splat(1e-6 * f64::from(face.0 % 3));
+        let [a, b, c] = cube().corners(face).map(|p| p + shift);
+        cracked.append(&TriMesh::new(vec![a, b, c], [[0, 1, 2]]));
     }
     assert_eq!(found(&told(cracked, "across cracks")), []);
     let mut open = cube();

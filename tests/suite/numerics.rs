@@ -4,7 +4,7 @@ use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::geom::{barycentric, orient, solid_angle};
 use pillarforest::groups::{anchor, groups};
-use pillarforest::index::{CellId, FaceId, GroupId};
+use pillarforest::index::{CellId, FaceId, GroupId, VertexId};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
@@ -67,7 +67,7 @@ impl Outcome {
         let faces = self.map().cells.iter().filter_map(|c| c.face);
         let mut list: Vec<usize> = faces
             .flat_map(|f| self.target().mesh.faces[f])
-            .map(|v| v as usize)
+            .map(VertexId::at)
             .collect();
         list.sort_unstable();
         list.dedup();
@@ -112,7 +112,7 @@ fn the_view_map_covers_the_solid_angle_of_a_ball() {
         vec![pillar(DVec2::ZERO, 30.0, 64, Datum::Plane)],
     );
     let Image { target, map, .. } = setting.seen();
-    let turned_to_eye = (0..target.mesh.faces.len()).map(|f| {
+    let turned_to_eye = FaceId::all(target.mesh.faces.len()).map(|f| {
         let [a, b, c] = target.mesh.corners(f).map(|p| p - EYE);
         solid_angle(a, b, c)
     });
@@ -160,10 +160,7 @@ fn every_ray_meets_what_its_cell_says() {
             panic!("{q} lies in no cell")
         };
         let direction = plane.direction(q);
-        let face = target
-            .bvh
-            .first_hit(plane.eye, direction)
-            .map(|h| FaceId::new(h.face));
+        let face = target.bvh.first_hit(plane.eye, direction).map(|h| h.face);
         let support = field.first_hit(plane.eye, direction).map(|h| h.0);
         wrong += usize::from((face, support) != (map.cells[cell].face, map.cells[cell].support));
     }
@@ -308,7 +305,7 @@ fn anchors_give_the_depth_of_their_point() {
         let Some(face) = cell.face else { continue };
         let q = map.points_mean(cell.corners);
         let (anchor, depth) = anchor(&target, face, q);
-        let [a, b, c] = target.mesh.corners(face.at());
+        let [a, b, c] = target.mesh.corners(face);
         let normal = (b - a).cross(c - a).normalize();
         let off = (map.plane.point(q, depth) - a).dot(normal);
         assert!(off.abs() < 1e-3, "{off} mm off its face");
@@ -376,17 +373,15 @@ impl Outcome {
     fn vertices_in_sight(&self) -> Vec<bool> {
         let (mesh, map) = (&self.target().mesh, self.map());
         let mut shares = vec![0.0; mesh.vertices.len()];
-        let mut add = |face: usize, share: f64| {
-            mesh.faces[face]
-                .iter()
-                .for_each(|v| shares[*v as usize] += share);
+        let mut add = |face: FaceId, share: f64| {
+            mesh.faces[face].iter().for_each(|v| shares[*v] += share);
         };
         for (c, cell) in map.all() {
             if let Some(face) = cell.face {
-                add(face.at(), 2.0 * map.solid_angle(c));
+                add(face, 2.0 * map.solid_angle(c));
             }
         }
-        for face in 0..mesh.faces.len() {
+        for face in FaceId::all(mesh.faces.len()) {
             let [a, b, c] = mesh.corners(face).map(|p| p - map.plane.eye);
             add(face, -solid_angle(a, b, c).max(0.0));
         }
@@ -401,7 +396,7 @@ fn curvature_rows(mesh: &TriMesh, s: &[f64], eye: DVec3) -> Vec<f64> {
     let mut sums = vec![DVec3::ZERO; mesh.vertices.len()];
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
-            let (i, j) = (face[(k + 1) % 3] as usize, face[(k + 2) % 3] as usize);
+            let (i, j) = (face[(k + 1) % 3], face[(k + 2) % 3]);
             let c = geometry.cotangents[f][k] / 2.0;
             sums[i] += c * (s[j] - s[i]) * (mesh.vertices[j] - eye);
             sums[j] += c * (s[i] - s[j]) * (mesh.vertices[i] - eye);
@@ -428,7 +423,7 @@ fn areas_sum_up_and_cotangents_know_plane_and_sphere() {
     let mut laplacian = vec![DVec3::ZERO; mesh.vertices.len()];
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
-            let (i, j) = (face[(k + 1) % 3] as usize, face[(k + 2) % 3] as usize);
+            let (i, j) = (face[(k + 1) % 3], face[(k + 2) % 3]);
             let step = geometry.cotangents[f][k] / 2.0 * (mesh.vertices[j] - mesh.vertices[i]);
             laplacian[i] += step;
             laplacian[j] -= step;
@@ -449,8 +444,8 @@ fn the_energy_of_a_linear_function_is_its_slope_squared_times_the_area() {
     let mesh = ball(DVec3::ZERO, 7.0, 12);
     let geometry = FaceGeometry::new(&mesh);
     let slope = DVec3::new(0.3, -0.2, 0.5);
-    for (f, face) in mesh.faces.iter().enumerate() {
-        let x = face.map(|v| slope.dot(mesh.vertices[v as usize]));
+    for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
+        let x = face.map(|v| slope.dot(mesh.vertices[v]));
         let difference = |k: usize| x[(k + 1) % 3] - x[(k + 2) % 3];
         let energy: f64 = (0..3)
             .map(|k| geometry.cotangents[f][k] / 2.0 * difference(k).powi(2))

@@ -10,7 +10,7 @@ use pillarforest::certify::layer::bound_violation_mm;
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::geom::{FAR_MM, ImagePlane, READING_MM};
-use pillarforest::index::CellId;
+use pillarforest::index::{CellId, FaceId, VertexId};
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions};
 use pillarforest::scene::{self, Scene};
@@ -226,15 +226,15 @@ fn where_there_is_room_the_relief_is_the_model() {
         let found = solved(&far_view(FAR_MM), std::slice::from_ref(&support), energy);
         let bounded = heights(&found, MIDDLE);
         let scale = found.depths.mu[0];
-        let place = |v: u32| {
-            let ray = found.target().mesh.vertices[v as usize] - found.map().plane.eye;
-            found.depths.s[v as usize] / scale * ray
+        let place = |v: VertexId| {
+            let ray = found.target().mesh.vertices[v] - found.map().plane.eye;
+            found.depths.s[v] / scale * ray
         };
-        let whole = |f: &&[u32; 3]| f.iter().all(|v| !bounded[*v as usize].is_nan());
+        let whole = |f: &&[VertexId; 3]| f.iter().all(|v| !bounded[*v].is_nan());
         let (mut worst, mut count) = (0.0f64, 0);
         for face in found.target().mesh.faces.iter().filter(whole) {
             let [a, b, c] = face.map(place);
-            let model = face.map(|v| found.target().mesh.vertices[v as usize]);
+            let model = face.map(|v| found.target().mesh.vertices[v]);
             let wanted = (model[1] - model[0]).cross(model[2] - model[0]);
             worst = worst.max((b - a).cross(c - a).angle_between(wanted).to_degrees());
             count += 1;
@@ -291,7 +291,7 @@ fn a_direction_makes_a_far_eye_whose_models_face_it() {
     assert!((view.eye.distance(view.look_at) - FAR_MM).abs() < 1e-6);
     // Turned by 30 degrees from facing the eye squarely, as the scene says.
     let cube = &view.models[0].mesh;
-    let turns = (0..cube.faces.len()).map(|f| cube.normal(f));
+    let turns = FaceId::all(cube.faces.len()).map(|f| cube.normal(f));
     let level = turns.filter(|n| n.z.abs() < 0.5);
     let nearest = level.map(|n| n.angle_between(DVec3::NEG_Y).to_degrees());
     assert!((nearest.fold(f64::INFINITY, f64::min) - 30.0).abs() < 1e-9);

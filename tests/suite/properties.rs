@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::{NamedMesh, read_bodies};
+use pillarforest::index::VertexId;
 use pillarforest::kinds::ReliefKind;
 use pillarforest::mesh::TriMesh;
 use pillarforest::scene::{self, Scene};
@@ -212,7 +213,7 @@ fn model(name: &str) -> Result<Vec<u8>, Diagnostic> {
     for v in &mesh.vertices {
         let _ = writeln!(text, "v {} {} {}", v.x, v.y, v.z);
     }
-    for [a, b, c] in &mesh.faces {
+    for [VertexId(a), VertexId(b), VertexId(c)] in &mesh.faces {
         let _ = writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1);
     }
     Ok(text.into_bytes())
@@ -221,10 +222,7 @@ fn model(name: &str) -> Result<Vec<u8>, Diagnostic> {
 fn cuboid(size: DVec3) -> TriMesh {
     let corner =
         |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * size;
-    TriMesh {
-        vertices: (0..8).map(corner).collect(),
-        faces: CUBE_FACES.to_vec(),
-    }
+    TriMesh::new((0..8).map(corner).collect(), CUBE_FACES)
 }
 
 // ---- The test ----
@@ -336,11 +334,7 @@ fn lies(scene: &Scene, build: &Build) -> Vec<String> {
 
 /// Edges that do not have exactly one face on each side; `None` if there are none. Vertices are equal if their bits are.
 fn open_edges(mesh: &TriMesh) -> Option<usize> {
-    let bits = |v: u32| {
-        mesh.vertices[v as usize]
-            .to_array()
-            .map(|x| (x + 0.0).to_bits())
-    };
+    let bits = |v: VertexId| mesh.vertices[v].to_array().map(|x| (x + 0.0).to_bits());
     let mut sides: Vec<_> = (mesh.faces.iter())
         .flat_map(|f| [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])])
         .map(|(a, b)| {

@@ -74,10 +74,7 @@ fn plate(middle: DVec3, half: f64, turn: f64) -> TriMesh {
     let vertices = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
         .map(|(x, z)| middle + half * (x * side + z * DVec3::Z))
         .to_vec();
-    TriMesh {
-        vertices,
-        faces: vec![[0, 1, 2], [0, 2, 3]],
-    }
+    TriMesh::new(vertices, [[0, 1, 2], [0, 2, 3]])
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The scene language: every case under tests/cases, texts too large or too odd for files, placing, `--set`, the bundled scenes.
 
 use pillarforest::diag::{Diagnostic, Place, Warned};
+use pillarforest::index::VertexId;
 use pillarforest::kinds::ReliefKind;
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::{Prefer, StepLimits, StepOptions};
@@ -277,8 +278,8 @@ fn supports_are_closed_prisms_and_pillars_sink_into_the_base() {
 }
 
 /// Whether every directed edge has its opposite exactly once.
-fn closed(faces: &[[u32; 3]]) -> bool {
-    let mut edges: Vec<(u32, u32)> = faces
+fn closed(faces: &[[VertexId; 3]]) -> bool {
+    let mut edges: Vec<(VertexId, VertexId)> = faces
         .iter()
         .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
         .collect();
@@ -594,7 +595,7 @@ fn regions_mark_the_vertices_they_hold_in_the_files_coordinates() {
     let by_file = |k: usize| scene.views[k].models[0].original.as_ref().unwrap();
     // Weights and freedom of the file's vertices, in its order.
     let of = |k: usize, model: &pillarforest::view::PlacedModel| -> (Vec<f64>, Vec<bool>) {
-        let vertices = by_file(k).vertex_of.iter().map(|v| v.unwrap() as usize);
+        let vertices = by_file(k).vertex_of.iter().map(|v| v.unwrap());
         vertices
             .map(|v| (model.marks.weights[v], model.marks.free[v]))
             .unzip()

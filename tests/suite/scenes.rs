@@ -7,6 +7,7 @@ use glam::DVec3;
 use pillarforest::compile::{Build, OutputFile, build, check, plan};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::read_mesh;
+use pillarforest::index::FaceId;
 use pillarforest::intake::{Inspection, inspect};
 use pillarforest::mesh::Solid;
 use pillarforest::scene::{self, Scene};
@@ -381,7 +382,7 @@ fn the_bundled_box_is_a_plain_cube() {
     assert_eq!(cube.vertices.len(), 6 * 16 * 16 + 2);
     assert_eq!(cube.faces.len(), 6 * 16 * 16 * 2);
     assert_eq!((cube.volume(), cube.area()), (64_000.0, 9_600.0));
-    for face in 0..cube.faces.len() {
+    for face in FaceId::all(cube.faces.len()) {
         // Halves of squares of 2.5 mm, facing along an axis; the vector has twice the area.
         assert_eq!(cube.area_vector(face).abs().max_element(), 6.25);
         assert_eq!(cube.normal(face).abs().max_element(), 1.0);

@@ -5,6 +5,7 @@ use manifold_rust::linalg::Vec3;
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{Error, MeshGL64};
 use pillarforest::groups::Groups;
+use pillarforest::index::VertexId;
 use pillarforest::kinds;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{Depths, Energy};
@@ -59,7 +60,7 @@ pub fn prism(outline: &[DVec2], bottom: f64, top: f64) -> TriMesh {
         faces.extend([[i, j, n + j], [i, n + j, n + i]]);
     }
     faces.extend((1..n - 1).flat_map(|i| [[0, i + 1, i], [n, n + i, n + i + 1]]));
-    TriMesh { vertices, faces }
+    TriMesh::new(vertices, faces)
 }
 
 /// A ball of facets.
@@ -74,10 +75,10 @@ pub fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
             .extend(ring.iter().map(|p| centre + p.extend(radius * tilt.sin())));
     }
     mesh.vertices.push(centre + radius * DVec3::Z);
-    let at = |row: u32, k: u32| 1 + (row - 1) * n + k % n;
-    let last = mesh.vertices.len() as u32 - 1;
+    let at = |row: u32, k: u32| VertexId(1 + (row - 1) * n + k % n);
+    let [first, last] = [0, mesh.vertices.len() - 1].map(VertexId::new);
     for k in 0..n {
-        mesh.faces.push([0, at(1, k + 1), at(1, k)]);
+        mesh.faces.push([first, at(1, k + 1), at(1, k)]);
         mesh.faces.push([last, at(m - 1, k), at(m - 1, k + 1)]);
         for row in 1..m - 1 {
             mesh.faces
@@ -299,7 +300,7 @@ pub fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
 pub fn obj(mesh: &TriMesh) -> Vec<u8> {
     let vertices = mesh.vertices.iter();
     let vertices = vertices.map(|v| format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
-    let face = |f: &[u32; 3]| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    let face = |f: &[VertexId; 3]| format!("f {} {} {}\n", f[0].0 + 1, f[1].0 + 1, f[2].0 + 1);
     let text: String = vertices.chain(mesh.faces.iter().map(face)).collect();
     text.into_bytes()
 }
@@ -349,14 +350,12 @@ pub fn boxes(corners: &[(DVec3, DVec3)]) -> TriMesh {
     };
     let all = corners.iter().map(cube).reduce(|a, b| a.union(&b)).unwrap();
     let mesh = all.get_mesh_gl64(-1);
-    TriMesh {
-        vertices: (0..mesh.num_vert())
+    TriMesh::new(
+        (0..mesh.num_vert())
             .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
             .collect(),
-        faces: (0..mesh.num_tri())
-            .map(|t| mesh.get_tri_verts(t).map(|v| v as u32))
-            .collect(),
-    }
+        (0..mesh.num_tri()).map(|t| mesh.get_tri_verts(t).map(|v| v as u32)),
+    )
 }
 
 /// A mesh for the boolean library.
@@ -364,7 +363,12 @@ pub fn manifold(mesh: &TriMesh) -> Manifold {
     let solid = Manifold::from_mesh_gl64(&MeshGL64 {
         num_prop: 3,
         vert_properties: mesh.vertices.iter().flat_map(DVec3::to_array).collect(),
-        tri_verts: mesh.faces.iter().flatten().map(|v| u64::from(*v)).collect(),
+        tri_verts: mesh
+            .faces
+            .iter()
+            .flatten()
+            .map(|v| u64::from(v.0))
+            .collect(),
         ..MeshGL64::default()
     });
     assert_eq!(solid.status(), Error::NoError);

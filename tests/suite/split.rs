@@ -6,6 +6,7 @@ use manifold_rust::linalg::Vec3;
 use manifold_rust::manifold::Manifold;
 use pillarforest::diagram::layout;
 use pillarforest::geom::{contains, polygon_area};
+use pillarforest::index::FaceId;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::split::{Lettering, Piece, PlateNumber, Split, SplitError, SplitOptions, split};
 use pillarforest::support::{Datum, Support, SupportKind};
@@ -225,7 +226,7 @@ fn sockets_and_numbers_take_out_what_they_should() {
     // The number in the peg's end is there as well: 1 is a bar of five cells.
     let peg = pillars(&split).next().unwrap();
     let (mesh, z) = (peg.solid.mesh(), 0.6);
-    let ceiling: f64 = (0..mesh.faces.len())
+    let ceiling: f64 = FaceId::all(mesh.faces.len())
         .filter(|f| mesh.corners(*f).iter().all(|p| (p.z - z).abs() < 1e-4))
         .map(|f| mesh.area_vector(f).length() / 2.0)
         .sum();
@@ -296,14 +297,12 @@ fn pillars_whose_reliefs_meet_are_one_piece() {
             DVec3::new(x + 12.0, 1.0, 25.0),
         )]));
         let mesh = pillar.union(&arm).get_mesh_gl64(-1);
-        let mesh = TriMesh {
-            vertices: (0..mesh.num_vert())
+        let mesh = TriMesh::new(
+            (0..mesh.num_vert())
                 .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
                 .collect(),
-            faces: (0..mesh.num_tri())
-                .map(|t| mesh.get_tri_verts(t).map(|v| v as u32))
-                .collect(),
-        };
+            (0..mesh.num_tri()).map(|t| mesh.get_tri_verts(t).map(|v| v as u32)),
+        );
         standing[k] = Solid::new(mesh).unwrap();
     }
     let split = split(&supports, &standing, &OPTIONS).unwrap();

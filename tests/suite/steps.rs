@@ -3,7 +3,7 @@
 use crate::shapes::{MIDDLE, Setting, ball, wavy};
 use glam::{DVec2, DVec3};
 use pillarforest::groups::anchor;
-use pillarforest::index::CellId;
+use pillarforest::index::{CellId, VertexId};
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
 use pillarforest::relief::{Relief, relief};
@@ -68,7 +68,7 @@ fn error_deg(image: &Image, relief: &Relief) -> f64 {
         };
         let corners = map.triangle(c);
         let [p, q, r] = [0, 1, 2].map(|k| map.plane.point(corners[k], depth[k]));
-        let normal = target.mesh.normal(face.at());
+        let normal = target.mesh.normal(face);
         let turned = (q - p).cross(r - p);
         let angle = turned
             .cross(normal)
@@ -187,8 +187,8 @@ fn steps_at_vertices(torn: &Torn, relief: &Relief) -> Vec<f64> {
         if faces[0] == faces[1] || group(c) != group(n) {
             continue;
         }
-        for v in mesh.faces[faces[0]].map(|v| v as usize) {
-            for w in mesh.faces[faces[1]].map(|w| w as usize) {
+        for v in mesh.faces[faces[0]] {
+            for w in mesh.faces[faces[1]] {
                 if v != w && mesh.vertices[v] == mesh.vertices[w] {
                     steps.push(target.depth[v] * (torn.depths.s[v] - torn.depths.s[w]).abs());
                 }
@@ -322,11 +322,11 @@ fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
         order
     };
     let from = order(mesh.vertices.len(), seed);
-    let mut to = vec![0; from.len()];
-    from.iter()
-        .enumerate()
-        .for_each(|(new, old)| to[*old] = new as u32);
-    let face = |f: usize| [0, 1, 2].map(|k| to[mesh.faces[f][(k + f) % 3] as usize]);
+    let mut to = vec![VertexId(0); from.len()];
+    VertexId::all(from.len())
+        .zip(&from)
+        .for_each(|(new, old)| to[*old] = new);
+    let face = |f: usize| [0, 1, 2].map(|k| to[mesh.faces[f][(k + f) % 3]]);
     TriMesh {
         vertices: from.iter().map(|v| mesh.vertices[*v]).collect(),
         faces: order(mesh.faces.len(), seed + 1)
@@ -378,15 +378,15 @@ fn a_face_steeper_than_the_layer_is_no_error() {
     let lean = DVec2::new(40.0, 20.0);
     let corner = |x: f64, z: f64| MIDDLE + DVec3::new(x, (x * lean.x + z * lean.y) / 24.0, z);
     let mut setting = Setting::tight();
-    setting.model = TriMesh {
-        vertices: vec![
+    setting.model = TriMesh::new(
+        vec![
             corner(-12.0, -10.0),
             corner(12.0, -10.0),
             corner(12.0, 10.0),
             corner(-12.0, 10.0),
         ],
-        faces: vec![[0, 1, 2], [0, 2, 3]],
-    };
+        [[0, 1, 2], [0, 2, 3]],
+    );
     let (torn, relief) = torn_with(&setting, &STEPS);
     let (error, whole) = (error_deg(&torn.sight.image, &relief), whole_error(&setting));
     assert!(error <= whole + 0.1, "{error} degrees torn, {whole} whole");

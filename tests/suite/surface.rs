@@ -4,6 +4,7 @@ use crate::shapes::{self, Outcome, Setting, ball, field, sighted};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::build;
 use pillarforest::diag::Diagnostic;
+use pillarforest::index::{FaceId, VertexId};
 use pillarforest::intake::{Admitted, load_original};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::{Original, TriMesh};
@@ -19,17 +20,17 @@ use std::sync::Arc;
 fn model() -> String {
     let mut mesh = ball(DVec3::new(4.0, -3.0, 1.0), 7.0, 8);
     mesh.vertices.insert(0, DVec3::splat(9.0));
-    mesh.faces.iter_mut().flatten().for_each(|v| *v += 1);
+    mesh.faces.iter_mut().flatten().for_each(|v| v.0 += 1);
     mesh.vertices.push(mesh.vertices[20]);
-    let last = mesh.vertices.len() as u32 - 1;
+    let [twin, last] = [20, mesh.vertices.len() - 1].map(VertexId::new);
     let of_twin = mesh
         .faces
         .iter_mut()
-        .find(|f| f.contains(&20))
+        .find(|f| f.contains(&twin))
         .expect("a face");
     of_twin
         .iter_mut()
-        .filter(|v| **v == 20)
+        .filter(|v| **v == twin)
         .for_each(|v| *v = last);
     let mut text = String::new();
     for (k, v) in mesh.vertices.iter().enumerate() {
@@ -38,7 +39,7 @@ fn model() -> String {
     for (f, face) in mesh.faces.iter().enumerate() {
         text += "f";
         for (k, v) in face.iter().enumerate() {
-            text += &format!(" {}/{}", v + 1, 3 * f + k + 1);
+            text += &format!(" {}/{}", v.0 + 1, 3 * f + k + 1);
         }
         text.push('\n');
     }
@@ -69,7 +70,7 @@ fn moon() -> String {
         .for_each(|v| text += &format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
     ball.faces
         .iter()
-        .for_each(|f| text += &format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
+        .for_each(|f| text += &format!("f {} {} {}\n", f[0].0 + 1, f[1].0 + 1, f[2].0 + 1));
     text
 }
 
@@ -229,26 +230,24 @@ fn a_torn_surface_tells_where_its_vertices_come_from() {
     let moon_faces = input.faces.len() - ball.mesh.faces.len();
     let out = written("Normal(steps: Allowed())");
     assert!(out.header.contains("cut along tears"), "{}", out.header);
-    let from: Vec<usize> = out
+    let from: Vec<VertexId> = out
         .scalar("input_vertex")
         .iter()
-        .map(|v| *v as usize)
+        .map(|v| VertexId(*v as u32))
         .collect();
     for (p, i) in out.ply.mesh.vertices.iter().zip(&from) {
         let [ray, own] = [*p - EYE, input.vertices[*i] - EYE];
         assert!(ray.cross(own).length() < 1e-6 * ray.length() * own.length());
     }
     assert!(out.scalar("mu").iter().all(|mu| *mu == 1.0));
-    let same_place = |v: usize, w: usize| input.vertices[v].distance(input.vertices[w]) < 1e-9;
+    let same_place =
+        |v: VertexId, w: VertexId| input.vertices[v].distance(input.vertices[w]) < 1e-9;
     let wanted = ball.attributes.uvs.as_ref().expect("texture points");
     let found = out.ply.attributes.uvs.as_ref().expect("texture points");
     let mut on_ball = 0;
     for (f, face) in out.ply.mesh.faces.iter().enumerate() {
-        let at = face.map(|v| from[v as usize]);
-        let is_it = |g: &[u32; 3]| {
-            at.iter()
-                .all(|v| g.iter().any(|w| same_place(*v, *w as usize)))
-        };
+        let at = face.map(|v| from[v]);
+        let is_it = |g: &[VertexId; 3]| at.iter().all(|v| g.iter().any(|w| same_place(*v, *w)));
         let g = input
             .faces
             .iter()
@@ -261,7 +260,7 @@ fn a_torn_surface_tells_where_its_vertices_come_from() {
         for (k, v) in at.iter().enumerate() {
             let own = input.faces[g]
                 .iter()
-                .position(|w| same_place(*v, *w as usize))
+                .position(|w| same_place(*v, *w))
                 .expect("a corner");
             let uv = wanted.points[wanted.corners[g - moon_faces][own] as usize];
             assert_eq!(found.points[found.corners[f][k] as usize], uv, "face {f}");
@@ -315,7 +314,7 @@ fn solved(energy: Energy, marks: impl Fn(&TriMesh) -> Marks) -> (Target, Depths,
         }
     }
     let (mut sum, mut area) = (0.0, 0.0);
-    for f in (0..seen.len()).filter(|f| seen[*f]) {
+    for f in FaceId::all(seen.len()).filter(|f| seen[*f]) {
         if target.mesh.corners(f).iter().all(|p| on_right(*p)) {
             let a = target.mesh.area_vector(f).length();
             sum += a * target.mesh.normal(f).angle_between(moved.normal(f));
@@ -375,7 +374,7 @@ fn bent(target: &Target, s: &[f64]) -> f64 {
     let mut sums = vec![DVec3::ZERO; s.len()];
     for face in &mesh.faces {
         for k in 0..3 {
-            let [a, i, j] = [0, 1, 2].map(|n| face[(k + n) % 3] as usize);
+            let [a, i, j] = [0, 1, 2].map(|n| face[(k + n) % 3]);
             let [p, q] = [i, j].map(|v| mesh.vertices[v] - mesh.vertices[a]);
             let half_cotangent = p.dot(q) / p.cross(q).length() / 2.0;
             sums[i] += half_cotangent * (s[j] - s[i]) * (mesh.vertices[j] - eye);
@@ -412,7 +411,7 @@ fn free_vertices_have_no_bounds_and_a_model_of_them_stays_as_it_is() {
         let (_, bounded, pressed) = solved(energy, none);
         let (target, depths, free) = solved(energy, upper);
         assert!(free < 0.7 * pressed, "{energy:?}: {free} of {pressed} rad");
-        assert!(target.is_free(0) || target.free.contains(&true));
+        assert!(target.is_free(VertexId(0)) || target.free.contains(&true));
         assert_ne!(depths.s, bounded.s);
     }
 }

@@ -3,6 +3,7 @@
 use crate::shapes::{ball, prism, ring};
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
+use pillarforest::index::FaceId;
 use pillarforest::mesh::TriMesh;
 
 /// Rays from the middle of a ball through every vertex and through points of every edge and face.
@@ -12,7 +13,7 @@ fn no_ray_leaks_through_vertices_edges_or_faces() {
     let mesh = ball(centre, 20.0, 40);
     let bvh = Bvh::new(&mesh);
     let mut rays: Vec<DVec3> = mesh.vertices.clone();
-    for f in 0..mesh.faces.len() {
+    for f in FaceId::all(mesh.faces.len()) {
         let [a, b, c] = mesh.corners(f);
         rays.extend([
             (a + b) / 2.0,
@@ -65,7 +66,7 @@ fn hits_are_those_of_a_search_through_all_faces() {
 
 /// Parameters at which the ray meets faces, by solving for the point in each face's plane (Möller & Trumbore 1997).
 fn by_search(mesh: &TriMesh, origin: DVec3, direction: DVec3) -> Vec<f64> {
-    let hit = |f: usize| {
+    let hit = |f: FaceId| {
         let [a, b, c] = mesh.corners(f);
         let (e1, e2) = (b - a, c - a);
         let p = direction.cross(e2);
@@ -76,7 +77,7 @@ fn by_search(mesh: &TriMesh, origin: DVec3, direction: DVec3) -> Vec<f64> {
         let v = direction.dot(q);
         (det != 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| e2.dot(q))
     };
-    (0..mesh.faces.len())
+    FaceId::all(mesh.faces.len())
         .filter_map(hit)
         .filter(|t| *t > 0.0)
         .collect()

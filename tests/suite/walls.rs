@@ -4,7 +4,7 @@ use super::shapes::{Outcome, Setting, ball, obj};
 use glam::{DVec2, DVec3};
 use pillarforest::compile;
 use pillarforest::diag::Diagnostic;
-use pillarforest::index::{CellId, FacetId, SupportId};
+use pillarforest::index::{CellId, FacetId, SupportId, VertexId};
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
@@ -37,11 +37,11 @@ fn vase() -> TriMesh {
         let ring = (0..RINGS).map(|i| (*r * way(i)).extend(*z));
         mesh.vertices.extend(ring);
     }
-    let at = |ring: u32, i: u32| 2 + ring * RINGS + i % RINGS;
+    let at = |ring: u32, i: u32| VertexId(2 + ring * RINGS + i % RINGS);
     let last = profile.len() as u32 - 1;
     for i in 0..RINGS {
-        mesh.faces.push([0, at(0, i + 1), at(0, i)]);
-        mesh.faces.push([1, at(last, i), at(last, i + 1)]);
+        mesh.faces.push([VertexId(0), at(0, i + 1), at(0, i)]);
+        mesh.faces.push([VertexId(1), at(last, i), at(last, i + 1)]);
         for ring in 0..last {
             let [a, b] = [at(ring, i), at(ring, i + 1)];
             let [c, d] = [at(ring + 1, i + 1), at(ring + 1, i)];
@@ -94,10 +94,7 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
                 continue;
             };
             // Thin cells are merged away, so that some reach beyond their facet by two micrometres.
-            let planes = (
-                Some(FacetId::new(first.face)),
-                Some(FacetId::new(leaves.face)),
-            );
+            let planes = (Some(FacetId(first.face.0)), Some(FacetId(leaves.face.0)));
             if planes != (cell.facet, cell.leaves) {
                 merged += 1;
                 continue;

@@ -4,6 +4,7 @@ use super::shapes::{ball, obj};
 use glam::DVec3;
 use pillarforest::compile::{Build, build, check};
 use pillarforest::diag::Diagnostic;
+use pillarforest::index::VertexId;
 use pillarforest::intake::{load_model, load_original};
 use pillarforest::mesh::{Original, Solid, TriMesh, self_intersections};
 use pillarforest::scene;
@@ -171,13 +172,13 @@ fn free_parts_leave_the_layer() {
 #[test]
 fn the_order_of_vertices_in_the_file_does_not_matter() {
     let mesh = model();
-    let n = mesh.vertices.len() as u32;
+    let n = mesh.vertices.len();
     // 7 has no factor in common with the number of vertices.
     assert_ne!(n % 7, 0);
-    let place = |v: u32| (7 * v + 3) % n;
+    let place = |v: VertexId| VertexId::new((7 * v.at() + 3) % n);
     let mut shuffled = mesh.clone();
-    for v in 0..n {
-        shuffled.vertices[place(v) as usize] = mesh.vertices[v as usize];
+    for v in VertexId::all(n) {
+        shuffled.vertices[place(v)] = mesh.vertices[v];
     }
     shuffled
         .faces

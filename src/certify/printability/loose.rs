@@ -2,6 +2,7 @@
 
 use super::check::{PrintCheck, PrintFinding};
 use crate::certify::point::without_minus_zero;
+use crate::index::{ComponentId, FaceId};
 use crate::mesh::shells::shells;
 use crate::mesh::{Solid, TriMesh, face_components};
 use glam::DVec3;
@@ -12,13 +13,14 @@ pub fn loose(whole: &Solid) -> [PrintCheck; 2] {
     let (mut parts, mut cavities) = (Vec::new(), Vec::new());
     if whole.parts() + whole.cavities() > 1 {
         let component = face_components(mesh);
-        for (k, shell) in shells(mesh).iter().enumerate() {
+        let shells = shells(mesh);
+        for (k, shell) in ComponentId::all(shells.len()).zip(&shells) {
             let list = if shell.volume > 0.0 {
                 &mut parts
             } else {
                 &mut cavities
             };
-            list.push((shell.volume.abs(), extent(mesh, &component, k as u32)));
+            list.push((shell.volume.abs(), extent(mesh, &component, k)));
         }
     }
     parts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -47,8 +49,8 @@ pub fn loose(whole: &Solid) -> [PrintCheck; 2] {
 }
 
 /// Middle and diagonal of one component's box.
-fn extent(mesh: &TriMesh, component: &[u32], k: u32) -> (DVec3, f64) {
-    let corners = (0..mesh.faces.len())
+fn extent(mesh: &TriMesh, component: &[ComponentId], k: ComponentId) -> (DVec3, f64) {
+    let corners = FaceId::all(mesh.faces.len())
         .filter(|f| component[*f] == k)
         .flat_map(|f| mesh.corners(f));
     let (lo, hi) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {

@@ -6,6 +6,7 @@
 use super::check::{PrintCheck, PrintFinding, Printed};
 use crate::certify::point::without_minus_zero;
 use crate::geom::inscribed;
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use crate::support::SupportKind;
 use glam::{DVec2, DVec3};
@@ -97,7 +98,7 @@ fn outlines(
     height: impl Fn(usize) -> f64,
 ) -> Vec<Vec<[DVec2; 2]>> {
     let mut outlines = vec![Vec::new(); count];
-    for face in 0..mesh.faces.len() {
+    for face in FaceId::all(mesh.faces.len()) {
         let corners = mesh.corners(face);
         let low = corners.iter().map(|c| c.z).fold(f64::INFINITY, f64::min);
         let high = corners

@@ -9,6 +9,7 @@
 use super::check::{PrintCheck, PrintFinding, PrintLimits};
 use crate::certify::point::without_minus_zero;
 use crate::geom::to_segment;
+use crate::index::FaceId;
 use crate::mesh::{DisjointSets, TriMesh, face_neighbours};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -87,34 +88,34 @@ fn ledges(mesh: &TriMesh) -> Vec<Ledge> {
     let flat = -STEEP_DEG.to_radians().cos();
     let hangs: Vec<bool> = (0..mesh.faces.len())
         .into_par_iter()
+        .map(FaceId::new)
         .map(|f| mesh.normal(f).z < flat && mesh.corners(f).iter().any(|c| c.z > floor))
         .collect();
     let neighbours = face_neighbours(mesh);
     let mut sets = DisjointSets::new(mesh.faces.len());
-    let hanging = || (0..mesh.faces.len()).filter(|f| hangs[*f]);
+    let hanging = || FaceId::all(mesh.faces.len()).filter(|f| hangs[*f]);
     for f in hanging() {
         for n in neighbours[f].into_iter().flatten() {
-            if hangs[n as usize] {
-                sets.join(f as u32, n);
+            if hangs[n] {
+                sets.join(f.0, n.0);
             }
         }
     }
-    let (count, number) = sets.numbers();
-    let mut slot = vec![usize::MAX; count];
+    let mut ledge_of: Vec<Option<usize>> = vec![None; hangs.len()];
     let mut ledges: Vec<Ledge> = Vec::new();
     for f in hanging() {
-        let slot = &mut slot[number[f] as usize];
-        if *slot == usize::MAX {
-            *slot = ledges.len();
+        let slot = &mut ledge_of[FaceId(sets.root(f.0))];
+        let ledge = *slot.get_or_insert_with(|| {
             ledges.push(Ledge::default());
-        }
-        let ledge = &mut ledges[*slot];
+            ledges.len() - 1
+        });
+        let ledge = &mut ledges[ledge];
         let corners = mesh.corners(f);
         ledge.points.extend(points(corners));
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            let other = neighbours[f][k].filter(|n| !hangs[*n as usize]);
-            if other.is_some_and(|n| goes_down(mesh, n as usize, (a + b) / 2.0)) {
+            let other = neighbours[f][k].filter(|n| !hangs[*n]);
+            if other.is_some_and(|n| goes_down(mesh, n, (a + b) / 2.0)) {
                 ledge.held.push([a.truncate(), b.truncate()]);
             }
         }
@@ -134,7 +135,7 @@ fn points([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
 }
 
 /// Whether a face lies below one of its edges.
-fn goes_down(mesh: &TriMesh, face: usize, edge: DVec3) -> bool {
+fn goes_down(mesh: &TriMesh, face: FaceId, edge: DVec3) -> bool {
     let corners = mesh.corners(face);
     corners.iter().sum::<DVec3>().z / 3.0 < edge.z
 }

@@ -11,6 +11,7 @@
 use super::check::{LostWalls, PrintCheck, PrintFinding, PrintLimits};
 use crate::bvh::Bvh;
 use crate::certify::point::without_minus_zero;
+use crate::index::FaceId;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::support::{Support, SupportKind};
 use glam::{DVec2, DVec3};
@@ -141,15 +142,15 @@ fn worst(patches: &[Vec<usize>], value: impl Fn(usize) -> f64, missed: f64) -> O
 }
 
 /// Faces and points, and the area that each stands for.
-fn spread(mesh: &TriMesh) -> (Vec<(usize, DVec3)>, f64) {
+fn spread(mesh: &TriMesh) -> (Vec<(FaceId, DVec3)>, f64) {
     let areas: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
-        .map(|f| mesh.area_vector(f).length() / 2.0)
+        .map(|f| mesh.area_vector(FaceId::new(f)).length() / 2.0)
         .collect();
     let total: f64 = areas.iter().sum();
     let each = SAMPLE_MM2.max(total / MOST_SAMPLES);
     let (mut points, mut before) = (Vec::new(), 0.0);
-    for (face, area) in areas.iter().enumerate() {
+    for (face, area) in FaceId::all(areas.len()).zip(&areas) {
         before += area;
         // Half a step in, so that a lone face of half a step's area is met.
         while (points.len() as f64 + 0.5) * each < before {
@@ -160,7 +161,7 @@ fn spread(mesh: &TriMesh) -> (Vec<(usize, DVec3)>, f64) {
 }
 
 /// Point number `k` of all, within its face: Roberts' R2 sequence, folded into the triangle.
-fn placed(mesh: &TriMesh, face: usize, k: usize) -> DVec3 {
+fn placed(mesh: &TriMesh, face: FaceId, k: usize) -> DVec3 {
     const R2: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
     let p = (DVec2::splat(0.5) + k as f64 * R2).fract();
     let p = if p.x + p.y > 1.0 { 1.0 - p } else { p };
@@ -168,7 +169,7 @@ fn placed(mesh: &TriMesh, face: usize, k: usize) -> DVec3 {
     a + p.x * (b - a) + p.y * (c - a)
 }
 
-fn probe(mesh: &TriMesh, bvh: &Bvh, supports: &[Support], face: usize, at: DVec3) -> Sample {
+fn probe(mesh: &TriMesh, bvh: &Bvh, supports: &[Support], face: FaceId, at: DVec3) -> Sample {
     let normal = mesh.normal(face);
     let opposite = -OPPOSITE_DEG.to_radians().cos();
     let meet = |direction: DVec3| {

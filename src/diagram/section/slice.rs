@@ -1,6 +1,7 @@
 //! What a plane through the eye cuts of a mesh.
 
 use super::plane::SectionPlane;
+use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -13,14 +14,14 @@ pub struct SlicedOutline {
 }
 
 /// An edge, its lower vertex first.
-type Edge = (u32, u32);
+type Edge = (VertexId, VertexId);
 
 /// All lines that lie before the eye. A vertex on the plane counts as above it: no triangle is met in a single point.
 pub fn slice(mesh: &TriMesh, cut: &SectionPlane) -> Vec<SlicedOutline> {
     let (sideways, away) = cut.frame();
     let normal = sideways.cross(away);
     let eye = cut.plane.eye;
-    let height = |v: u32| (mesh.vertices[v as usize] - eye).dot(normal);
+    let height = |v: VertexId| (mesh.vertices[v] - eye).dot(normal);
     let mut next: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
     let mut entered: BTreeMap<Edge, usize> = BTreeMap::new();
     for face in &mesh.faces {
@@ -37,7 +38,7 @@ pub fn slice(mesh: &TriMesh, cut: &SectionPlane) -> Vec<SlicedOutline> {
         }
     }
     let place = |(a, b): Edge| {
-        let [p, q] = [a, b].map(|v| mesh.vertices[v as usize]);
+        let [p, q] = [a, b].map(|v| mesh.vertices[v]);
         let (h, g) = (height(a), height(b));
         let at: DVec3 = p.lerp(q, h / (h - g)) - eye;
         DVec2::new(at.dot(sideways), at.dot(away))

@@ -12,6 +12,7 @@
 
 use super::problem::Problem;
 use super::sheet::Sheet;
+use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use crate::mimic::depths::{Depths, seen_solid_angles};
 use crate::mimic::iterated::{Ending, Iterated, Round};
@@ -97,13 +98,15 @@ fn change(problem: &Problem, before: &[f64], after: &[f64]) -> f64 {
 struct Turn<'a> {
     problem: &'a Problem<'a>,
     /// Seen faces, their normals in the model and solid angles.
-    faces: Vec<(usize, DVec3, f64)>,
+    faces: Vec<(FaceId, DVec3, f64)>,
 }
 
 impl<'a> Turn<'a> {
     fn new(problem: &'a Problem) -> Self {
-        let seen = seen_solid_angles(problem.image).into_iter();
-        let seen = seen.enumerate().filter(|(_, seen)| *seen > 0.0);
+        let seen = seen_solid_angles(problem.image);
+        let seen = FaceId::all(seen.len())
+            .zip(seen)
+            .filter(|(_, seen)| *seen > 0.0);
         Self {
             problem,
             faces: seen
@@ -116,7 +119,7 @@ impl<'a> Turn<'a> {
     fn mean_deg(&self, s: &[f64]) -> f64 {
         let moved = surface(self.problem, s);
         let whole: f64 = self.faces.iter().map(|f| f.2).sum();
-        let turned = |(f, normal, seen): &(usize, DVec3, f64)| {
+        let turned = |(f, normal, seen): &(FaceId, DVec3, f64)| {
             seen * moved.normal(*f).angle_between(*normal).to_degrees()
         };
         self.faces.iter().map(turned).sum::<f64>() / whole

@@ -2,6 +2,7 @@
 
 use super::sheet::{Form, Sheet};
 use crate::groups::Groups;
+use crate::index::{FaceId, VertexId};
 use crate::mesh::DisjointSets;
 use crate::mimic::conditions::{self, Condition, Conditions, plain_tangent};
 use crate::mimic::depths::{Depths, scales, seen_solid_angles, typical_width};
@@ -184,7 +185,7 @@ impl<'a> Problem<'a> {
             } else {
                 1.0
             };
-            seen * self.image.target.weight(i as u32).powi(2) / sheet.areas[i] * bend * bend
+            seen * self.image.target.weight(VertexId::new(i)).powi(2) / sheet.areas[i] * bend * bend
         };
         (0..self.visible.len()).map(weight).collect()
     }
@@ -196,12 +197,12 @@ fn visible_vertices(image: &Image) -> Vec<bool> {
     let Image { target, map, .. } = image;
     let seen = seen_solid_angles(image);
     let mut shares = vec![(0.0, 0.0); target.mesh.vertices.len()];
-    for (f, face) in target.mesh.faces.iter().enumerate() {
+    for (f, face) in FaceId::all(target.mesh.faces.len()).zip(&target.mesh.faces) {
         let whole = map.plane.solid_angle_of(target.mesh.corners(f));
         if whole > 0.0 || seen[f] > 0.0 {
             for v in face {
-                shares[*v as usize].0 += seen[f];
-                shares[*v as usize].1 += whole.abs();
+                shares[*v].0 += seen[f];
+                shares[*v].1 += whole.abs();
             }
         }
     }
@@ -217,14 +218,14 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     let areas = &problem.model.areas;
     let n = areas.len();
     let mut blocks = DisjointSets::new(n + problem.groups.groups.len());
-    for face in &problem.image.target.mesh.faces {
-        blocks.join(face[0], face[1]);
-        blocks.join(face[1], face[2]);
+    for [a, b, c] in &problem.image.target.mesh.faces {
+        blocks.join(a.0, b.0);
+        blocks.join(b.0, c.0);
     }
     for bound in &problem.groups.bounds {
-        blocks.join(bound.anchor.vertices[0], n as u32 + bound.group.0);
+        blocks.join(bound.anchor.vertices[0].0, n as u32 + bound.group.0);
     }
-    let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0]));
+    let sides = |c: &Condition| Some([c.plus?, c.minus?].map(|s| s.anchor.vertices[0].0));
     for [front, back] in problem.conditions.all.iter().filter_map(sides) {
         blocks.join(front, back);
     }
@@ -256,14 +257,14 @@ fn row(condition: &Condition, s: &[f64], start: &[f64], unit: f64) -> Option<Row
     };
     if let Some(side) = condition.plus {
         let tangent = plain_tangent(&side.anchor, s);
-        terms.extend(tangent.iter().map(|(v, g)| (*v, factor * g)));
+        terms.extend(tangent.iter().map(|(v, g)| (v.at(), factor * g)));
         if condition.minus.is_none() {
             terms.push((n + side.group.at(), -condition.limit.exp()));
         }
     }
     if let Some(side) = condition.minus {
         let tangent = plain_tangent(&side.anchor, s);
-        terms.extend(tangent.iter().map(|(v, g)| (*v, -g)));
+        terms.extend(tangent.iter().map(|(v, g)| (v.at(), -g)));
         if condition.plus.is_none() {
             terms.push((n + side.group.at(), (-condition.limit).exp()));
         }

@@ -3,6 +3,7 @@
 //! `C` is the cotangent matrix, `A` the mixed Voronoi areas, `L = A^-1 C` the Laplacian: on a smooth surface `L v = -2 H n`
 //! (Botsch et al. 2010), `H` positive where it bulges out.
 
+use crate::index::VertexId;
 use crate::laplacian::FaceGeometry;
 use crate::mesh::TriMesh;
 use glam::DVec3;
@@ -129,7 +130,7 @@ impl Sheet {
 
 /// Neighbours, rising, with the sum of `cot / 2` of the angles that face the edge to them.
 fn rings(mesh: &TriMesh, geometry: &FaceGeometry) -> Vec<Vec<(usize, f64)>> {
-    let mut sides: Vec<(u32, u32, f64)> = Vec::with_capacity(6 * mesh.faces.len());
+    let mut sides: Vec<(VertexId, VertexId, f64)> = Vec::with_capacity(6 * mesh.faces.len());
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
             let (i, j, c) = (
@@ -144,7 +145,7 @@ fn rings(mesh: &TriMesh, geometry: &FaceGeometry) -> Vec<Vec<(usize, f64)>> {
     let mut rings = vec![Vec::new(); mesh.vertices.len()];
     for pair in sides.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
         let c: f64 = pair.iter().map(|s| s.2).sum();
-        rings[pair[0].0 as usize].push((pair[0].1 as usize, c));
+        rings[pair[0].0].push((pair[0].1.at(), c));
     }
     rings
 }

@@ -1,7 +1,7 @@
 //! The closed mesh of a block: its cells at their depths, walls along the rays, and its back.
 
 use super::cells::{BlockCells, CellCorner, FanId};
-use crate::index::CellId;
+use crate::index::{CellId, VertexId};
 use crate::mesh::TriMesh;
 use glam::DVec2;
 
@@ -58,8 +58,9 @@ fn column(
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     let mut vertex = |z: f64| {
+        let own = VertexId::new(mesh.vertices.len());
         mesh.vertices.push(block.plane.point(q, z));
-        mesh.vertices.len() as u32 - 1
+        own
     };
     let back = vertex(back_at(block, f, q, back));
     Column {
@@ -70,12 +71,12 @@ fn column(
 
 /// The vertices on one ray: levels from near to far, then the back.
 struct Column {
-    levels: Vec<(f64, u32)>,
-    back: u32,
+    levels: Vec<(f64, VertexId)>,
+    back: VertexId,
 }
 
 impl Column {
-    fn at(&self, depth: f64) -> u32 {
+    fn at(&self, depth: f64) -> VertexId {
         self.levels
             .iter()
             .find(|l| l.0 == depth)
@@ -84,7 +85,7 @@ impl Column {
     }
 
     /// From a depth to the back.
-    fn down(&self, depth: f64) -> Vec<u32> {
+    fn down(&self, depth: f64) -> Vec<VertexId> {
         self.levels
             .iter()
             .filter(|l| l.0 >= depth)
@@ -94,9 +95,9 @@ impl Column {
     }
 
     /// From one depth to another, with the levels between.
-    fn between(&self, from: f64, to: f64) -> Vec<u32> {
+    fn between(&self, from: f64, to: f64) -> Vec<VertexId> {
         let (lo, hi) = (from.min(to), from.max(to));
-        let mut chain: Vec<u32> = self
+        let mut chain: Vec<VertexId> = self
             .levels
             .iter()
             .filter(|l| (lo..=hi).contains(&l.0))
@@ -110,7 +111,7 @@ impl Column {
 }
 
 /// Triangulates the wall between two chains that run from the cell's own depths to its neighbour's; `v` ends the cell's side.
-fn wall(faces: &mut Vec<[u32; 3]>, v: &[u32], u: &[u32]) {
+fn wall(faces: &mut Vec<[VertexId; 3]>, v: &[VertexId], u: &[VertexId]) {
     let (mut i, mut j) = (0, 0);
     while i + 1 < u.len() || j + 1 < v.len() {
         // Advance the chain that lags behind, so that triangles stay as stout as the levels allow.

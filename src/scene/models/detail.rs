@@ -1,5 +1,6 @@
 //! `detail`: models with fewer vertices for quick looks, with all that is said of their vertices.
 
+use crate::index::VertexId;
 use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, simplified};
 use crate::scene::defaults;
 use crate::scene::text::{Field, Reader};
@@ -35,7 +36,7 @@ pub fn lowered(mesh: &TriMesh, original: &Original, marks: &Marks, most: usize) 
         colours: colours(original, mesh.vertices.len(), kept),
         uvs: points.as_ref().map(|points| Uvs {
             points: picked(points, kept),
-            corners: small.mesh.faces.clone(),
+            corners: small.mesh.faces.iter().map(|f| f.map(|v| v.0)).collect(),
         }),
         scalars: scalars(original, mesh.vertices.len(), kept),
     };
@@ -44,7 +45,7 @@ pub fn lowered(mesh: &TriMesh, original: &Original, marks: &Marks, most: usize) 
         original: Original {
             mesh: small.mesh.clone(),
             attributes,
-            vertex_of: (0..kept.len() as u32).map(Some).collect(),
+            vertex_of: VertexId::all(kept.len()).map(Some).collect(),
             lowered_from: Some([own.vertices.len(), own.faces.len()]),
         },
         marks: Marks {
@@ -58,8 +59,8 @@ pub fn lowered(mesh: &TriMesh, original: &Original, marks: &Marks, most: usize) 
 
 /// The texture point of every vertex of the model, if each has only one.
 fn texture_points(mesh: &TriMesh, original: &Original, uvs: &Uvs) -> Option<Vec<DVec2>> {
-    let became = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(|v| original.vertex_of[v as usize]);
+    let became = |face: &[VertexId; 3]| {
+        let [a, b, c] = face.map(|v| original.vertex_of[v]);
         Some([a?, b?, c?])
     };
     let faces = original.mesh.faces.iter().zip(&uvs.corners);
@@ -75,19 +76,19 @@ fn texture_points(mesh: &TriMesh, original: &Original, uvs: &Uvs) -> Option<Vec<
     Uvs { points, corners }.per_vertex(&welded)
 }
 
-fn colours(original: &Original, count: usize, kept: &[u32]) -> Vec<[f64; 4]> {
+fn colours(original: &Original, count: usize, kept: &[VertexId]) -> Vec<[f64; 4]> {
     let channels = ["red", "green", "blue", "alpha"].map(|name| original.values(name, count));
     let [Some(r), Some(g), Some(b), Some(a)] = channels else {
         return Vec::new();
     };
-    let colour = |v: &u32| [&r, &g, &b, &a].map(|channel| channel[*v as usize]);
+    let colour = |v: &VertexId| [&r, &g, &b, &a].map(|channel| channel[*v]);
     match original.attributes.colours.is_empty() {
         true => Vec::new(),
         false => kept.iter().map(colour).collect(),
     }
 }
 
-fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<VertexScalar> {
+fn scalars(original: &Original, count: usize, kept: &[VertexId]) -> Vec<VertexScalar> {
     let scalar = |s: &VertexScalar| {
         Some(VertexScalar {
             name: s.name.clone(),
@@ -99,9 +100,9 @@ fn scalars(original: &Original, count: usize, kept: &[u32]) -> Vec<VertexScalar>
 }
 
 /// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[u32]) -> Vec<T> {
+fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
     if list.is_empty() {
         return Vec::new();
     }
-    vertices.iter().map(|v| list[*v as usize]).collect()
+    vertices.iter().map(|v| list[*v]).collect()
 }

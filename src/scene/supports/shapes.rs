@@ -85,7 +85,7 @@ pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
         faces.push([i, j, j + n]);
         faces.push([i, j + n, i + n]);
     }
-    TriMesh { vertices, faces }
+    TriMesh::new(vertices, faces)
 }
 
 /// Distance of a point from a polygon, 0 inside.

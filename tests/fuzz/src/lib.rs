@@ -45,12 +45,7 @@ fn telling(list: &[Diagnostic]) {
 fn sound(mesh: &TriMesh) {
     assert!(mesh.vertices.iter().all(|v| v.is_finite()));
     let count = mesh.vertices.len();
-    assert!(
-        mesh.faces
-            .as_flattened()
-            .iter()
-            .all(|v| (*v as usize) < count)
-    );
+    assert!(mesh.faces.as_flattened().iter().all(|v| v.at() < count));
 }
 
 /// Attributes fit the mesh they belong to.

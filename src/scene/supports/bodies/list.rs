@@ -121,9 +121,9 @@ fn parts(mesh: &TriMesh, crease: f64) -> Vec<u32> {
     let mut sets = DisjointSets::new(mesh.faces.len());
     for sides in Edges::new(mesh).iter().filter(|sides| sides.len() == 2) {
         let [f, g] = [sides[0].face, sides[1].face];
-        let [a, b] = [f, g].map(|f| mesh.normal(f as usize));
+        let [a, b] = [f, g].map(|f| mesh.normal(f));
         if a.cross(b).length().atan2(a.dot(b)) <= crease {
-            sets.join(f, g);
+            sets.join(f.0, g.0);
         }
     }
     sets.numbers().1

@@ -2,6 +2,7 @@
 
 use super::entry::{BodyEntry, name};
 use super::framed::FramedMesh;
+use crate::index::{FaceId, VertexId};
 use crate::mesh::{Edges, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::RawBody;
@@ -72,7 +73,9 @@ fn solid(
         }
         (_, field) => {
             let thickness = reader.positive(field, "thickness")?;
-            let mean: DVec3 = (0..mesh.faces.len()).map(|f| mesh.area_vector(f)).sum();
+            let mean: DVec3 = FaceId::all(mesh.faces.len())
+                .map(|f| mesh.area_vector(f))
+                .sum();
             let Some(ahead) = mean.try_normalize() else {
                 reader.error(span, "the mesh looks to all sides alike: it has no behind");
                 return None;
@@ -87,7 +90,8 @@ fn thickened(mesh: &TriMesh, by: DVec3) -> TriMesh {
     let n = mesh.vertices.len() as u32;
     let mut solid = mesh.clone();
     solid.vertices.extend(mesh.vertices.iter().map(|v| *v + by));
-    let back = mesh.faces.iter().map(|[a, b, c]| [c + n, b + n, a + n]);
+    let behind = |v: VertexId| VertexId(v.0 + n);
+    let back = mesh.faces.iter().map(|f| [f[2], f[1], f[0]].map(behind));
     solid.faces.extend(back);
     for sides in Edges::new(mesh).iter().filter(|sides| sides.len() == 1) {
         let side = &sides[0];
@@ -95,7 +99,9 @@ fn thickened(mesh: &TriMesh, by: DVec3) -> TriMesh {
             true => (side.low, side.high),
             false => (side.high, side.low),
         };
-        solid.faces.extend([[b, a, a + n], [b, a + n, b + n]]);
+        solid
+            .faces
+            .extend([[b, a, behind(a)], [b, behind(a), behind(b)]]);
     }
     solid
 }

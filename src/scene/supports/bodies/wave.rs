@@ -3,6 +3,7 @@
 use super::entry::{BodyEntry, frame, name};
 use super::framed::FramedMesh;
 use super::heights;
+use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawHeights, RawWave};
@@ -96,23 +97,23 @@ fn block(
             }
         }
     }
-    let behind = (columns + 1) * (rows + 1);
-    let at = |i: u32, j: u32| j * (columns + 1) + i;
-    let mut quad = |a: u32, b: u32, c: u32, d: u32| mesh.faces.extend([[a, b, c], [a, c, d]]);
+    let behind = |v: VertexId| VertexId((columns + 1) * (rows + 1) + v.0);
+    let at = |i: u32, j: u32| VertexId(j * (columns + 1) + i);
+    let mut quad = |[a, b, c, d]: [VertexId; 4]| mesh.faces.extend([[a, b, c], [a, c, d]]);
     for j in 0..rows {
         for i in 0..columns {
-            let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-            quad(a, b, c, d);
-            quad(d + behind, c + behind, b + behind, a + behind);
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            quad([a, b, c, d]);
+            quad([d, c, b, a].map(behind));
         }
     }
-    let mut border: Vec<u32> = (0..columns).map(|i| at(i, 0)).collect();
+    let mut border: Vec<VertexId> = (0..columns).map(|i| at(i, 0)).collect();
     border.extend((0..rows).map(|j| at(columns, j)));
     border.extend((0..columns).map(|i| at(columns - i, rows)));
     border.extend((0..rows).map(|j| at(0, rows - j)));
     for (k, a) in border.iter().copied().enumerate() {
         let b = border[(k + 1) % border.len()];
-        quad(b, a, a + behind, b + behind);
+        quad([b, a, behind(a), behind(b)]);
     }
     mesh
 }
