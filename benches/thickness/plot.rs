@@ -7,7 +7,7 @@ use pillarforest::diagram::drawing::{Align, Drawing, Ink, Pen, TextStyle};
 use pillarforest::diagram::lettering::Typeface;
 
 /// Width of the picture in pixels, which are the drawing's unit.
-pub const WIDTH: u32 = 1400;
+pub(crate) const WIDTH: u32 = 1400;
 const HEIGHT: f64 = 620.0;
 
 /// Left ends of the panels' axes and their length, top and bottom of the axes.
@@ -86,7 +86,7 @@ fn lines(rows: &Rows, subject: &Compared) -> Vec<Vec<(f64, f64)>> {
 }
 
 /// Draws all rows.
-pub fn plot(rows: &Rows) -> Drawing {
+pub(crate) fn plot(rows: &Rows) -> Drawing {
     let mut drawing = Drawing::new(DVec2::new(f64::from(WIDTH), HEIGHT));
     let errors = ErrorAxis::around(rows);
     let heading = TextStyle {

@@ -13,7 +13,7 @@ type Errors = [f64; 3];
 
 /// One view with one surface in one layer.
 #[derive(Clone)]
-pub struct Measured {
+pub(crate) struct Measured {
     pub scene: String,
     pub surface: String,
     pub mm: f64,
@@ -45,14 +45,14 @@ impl fmt::Display for Measured {
 }
 
 /// All rows, each with the number of views its scene has; in the order of the tables.
-pub struct Rows {
+pub(crate) struct Rows {
     path: Option<PathBuf>,
     rows: Vec<(Measured, usize)>,
 }
 
 impl Rows {
     /// Reads the rows of an earlier run, if there was one.
-    pub fn open(path: Option<&Path>) -> Result<Self, String> {
+    pub(crate) fn open(path: Option<&Path>) -> Result<Self, String> {
         let text = match path.map(fs::read_to_string) {
             None => String::new(),
             Some(Err(e)) if e.kind() == ErrorKind::NotFound => String::new(),
@@ -67,7 +67,7 @@ impl Rows {
     }
 
     /// Adds a row in place of an earlier one, and saves all.
-    pub fn put(&mut self, row: Measured, views: usize) -> Result<(), String> {
+    pub(crate) fn put(&mut self, row: Measured, views: usize) -> Result<(), String> {
         self.forget(&row);
         self.rows.push((row, views));
         self.rows.sort_by_key(|(r, _)| {
@@ -80,7 +80,7 @@ impl Rows {
     }
 
     /// Takes a row out that holds no longer, and saves the others.
-    pub fn drop(&mut self, row: &Measured) -> Result<(), String> {
+    pub(crate) fn drop(&mut self, row: &Measured) -> Result<(), String> {
         self.forget(row);
         self.save()
     }
@@ -108,12 +108,12 @@ impl Rows {
     }
 
     /// Whether every view is there.
-    pub fn complete(&self, scene: &str, surface: &SurfaceKind, mm: f64) -> bool {
+    pub(crate) fn complete(&self, scene: &str, surface: &SurfaceKind, mm: f64) -> bool {
         self.average(scene, surface.name, mm).is_some()
     }
 
     /// The figures averaged over the views, if all are there.
-    pub fn average(&self, scene: &str, surface: &str, mm: f64) -> Option<Errors> {
+    pub(crate) fn average(&self, scene: &str, surface: &str, mm: f64) -> Option<Errors> {
         let rows = self.of(scene, surface, mm);
         let count = rows.first()?.1;
         let mean = |k: usize| rows.iter().map(|r| r.0.errors[k]).sum::<f64>() / count as f64;
@@ -121,7 +121,7 @@ impl Rows {
     }
 
     /// The README's table: mean errors averaged over the views.
-    pub fn summary(&self) -> String {
+    pub(crate) fn summary(&self) -> String {
         let heads: String = THICKNESSES.iter().map(|t| format!(" {t} mm |")).collect();
         let mut text = format!(
             "| scene | surface |{heads}\n|---|---|{}\n",

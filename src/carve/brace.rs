@@ -14,7 +14,11 @@ const REAR_MM: f64 = 0.6;
 const SLIM: f64 = 0.83;
 
 /// One brace for every loose part larger than `crumb` cubic millimetres (the largest part is the support itself).
-pub fn braces(joined: &Boolean, slab: &Slab, crumb: f64) -> Result<Vec<Boolean>, BooleanError> {
+pub(crate) fn braces(
+    joined: &Boolean,
+    slab: &Slab,
+    crumb: f64,
+) -> Result<Vec<Boolean>, BooleanError> {
     let parts = joined.parts();
     parts
         .iter()

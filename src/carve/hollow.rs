@@ -27,7 +27,7 @@ const PART_MM: f64 = 0.003;
 pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 
 /// The solid to take out of `support` in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
-pub fn hollow(
+pub(crate) fn hollow(
     map: &ViewMap,
     slab: &Slab,
     support: SupportId,
@@ -41,7 +41,7 @@ pub fn hollow(
 }
 
 /// The same in front of a shell, which is not flat: down to `floor(cell, q)`.
-pub fn shell_hollow(
+pub(crate) fn shell_hollow(
     map: &ViewMap,
     slab: &Slab,
     support: SupportId,

@@ -17,7 +17,7 @@ const FLOOR: f64 = 0.5;
 const SHEET_MM: f64 = 0.05;
 
 /// What one view makes of one support.
-pub struct ReliefOnSupport<'a> {
+pub(crate) struct ReliefOnSupport<'a> {
     image: &'a Image<'a>,
     relief: &'a Relief,
     support: SupportId,
@@ -27,14 +27,18 @@ pub struct ReliefOnSupport<'a> {
 }
 
 /// A relief as a solid, and the cells it had to give up, rising.
-pub struct ReliefSolid {
+pub(crate) struct ReliefSolid {
     pub solid: Boolean,
     pub dropped: Vec<CellId>,
 }
 
 impl<'a> ReliefOnSupport<'a> {
     /// `None` if the view has no relief there.
-    pub fn new(sight: &'a Sight<'a>, relief: &'a Relief, support: SupportId) -> Option<Self> {
+    pub(crate) fn new(
+        sight: &'a Sight<'a>,
+        relief: &'a Relief,
+        support: SupportId,
+    ) -> Option<Self> {
         let cells = &sight.image.map.cells;
         let on = |c: &CellId| cells[*c].support == Some(support) && relief.depth[*c].is_some();
         let cells: Vec<CellId> = CellId::all(cells.len()).filter(on).collect();
@@ -48,7 +52,11 @@ impl<'a> ReliefOnSupport<'a> {
         })
     }
 
-    pub fn relief(&self, lap: f64, repairs: &mut Repairs) -> Result<ReliefSolid, BooleanError> {
+    pub(crate) fn relief(
+        &self,
+        lap: f64,
+        repairs: &mut Repairs,
+    ) -> Result<ReliefSolid, BooleanError> {
         let map = &self.image.map;
         let back = |c: CellId, q: DVec2| {
             if self.slab.is_shell() {
@@ -73,7 +81,7 @@ impl<'a> ReliefOnSupport<'a> {
         })
     }
 
-    pub fn hollow(&self, bed: f64) -> Result<Boolean, BooleanError> {
+    pub(crate) fn hollow(&self, bed: f64) -> Result<Boolean, BooleanError> {
         let (map, slab, cells) = (&self.image.map, &self.slab, &self.cells);
         if slab.is_shell() {
             let floor = |c: CellId, q: DVec2| self.shell(c, q, FLOOR);

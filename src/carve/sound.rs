@@ -6,13 +6,13 @@ use crate::ladder::Ladder;
 use crate::mesh::{Mended, Solid, mend, without_cavities};
 
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
-pub const CRUMB_MM3: f64 = 0.005;
+pub(crate) const CRUMB_MM3: f64 = 0.005;
 
 /// Tolerances at which slivers are simplified away, millimetres: the first is fast but may cross long faces; then as it is, or more.
 const TOLERANCES_MM: [f64; 3] = [1e-4, 0.0, 5e-4];
 
 /// A checked solid, and which rungs of its ladders held.
-pub struct Sound {
+pub(crate) struct Sound {
     pub solid: Solid,
     pub ladders: [Ladder; 2],
 }
@@ -21,7 +21,7 @@ pub struct Sound {
 ///
 /// # Errors
 /// If no tolerance gives a sound one.
-pub fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
+pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
     let mut defects = Vec::new();
     for (held, tolerance) in TOLERANCES_MM.into_iter().enumerate() {
         let mesh = solid.simplified(tolerance);

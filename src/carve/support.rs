@@ -16,7 +16,7 @@ use glam::DVec3;
 /// Widths that make operands overlap where they would only touch. Where they happen to touch all the same and cannot be
 /// mended, the next are tried.
 #[derive(Clone, Copy)]
-pub struct Widths {
+pub(crate) struct Widths {
     /// How far a relief's edge is bedded in its support, millimetres at the support: less than a tenth of a printed line, so
     /// unseen. At 0.002 (the thinnest cells) operands always touch.
     bed: f64,
@@ -24,7 +24,7 @@ pub struct Widths {
     lap: f64,
 }
 
-pub const WIDTHS: [Widths; 8] = [
+pub(crate) const WIDTHS: [Widths; 8] = [
     Widths {
         bed: 0.012,
         lap: 0.040,
@@ -61,7 +61,7 @@ pub const WIDTHS: [Widths; 8] = [
 /// Supports nearer than this to a defect may have caused it, millimetres.
 const SUSPECT_MM: f64 = 0.5;
 /// One support with its reliefs.
-pub struct Carved {
+pub(crate) struct Carved {
     pub whole: Solid,
     pub bare: Solid,
     pub blocks: Vec<(ViewId, Solid)>,
@@ -74,7 +74,7 @@ pub struct Carved {
 }
 
 impl Carved {
-    pub fn is_near(&self, place: DVec3) -> bool {
+    pub(crate) fn is_near(&self, place: DVec3) -> bool {
         let (lo, hi) = self.whole.bounds();
         place.cmpge(lo - SUSPECT_MM).all() && place.cmple(hi + SUSPECT_MM).all()
     }
@@ -84,7 +84,7 @@ impl Carved {
 ///
 /// # Errors
 /// If the boolean library refuses an operand, or a solid is unsound at all of them.
-pub fn carve_support(
+pub(crate) fn carve_support(
     field: &SupportField,
     s: SupportId,
     views: &[Operand],

@@ -8,7 +8,7 @@ use crate::sight::Sight;
 use crate::viewmap::SupportField;
 
 /// All results of the stages that make a forest.
-pub struct Built<'a> {
+pub(crate) struct Built<'a> {
     pub scene: &'a Scene,
     pub field: &'a SupportField<'a>,
     pub sights: &'a [Sight<'a>],

@@ -20,7 +20,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Contests of the views, and what is left in conflict after settling them.
-pub struct Settled {
+pub(crate) struct Settled {
     contests: Vec<Vec<Contest>>,
     left_arcmin2: Vec<f64>,
 }
@@ -29,7 +29,7 @@ pub struct Settled {
 ///
 /// # Errors
 /// If the scene wants contests to be errors, or a view is left without any surface.
-pub fn settled<'a>(
+pub(crate) fn settled<'a>(
     scene: &Scene,
     sights: Vec<Sight<'a>>,
 ) -> Result<(Vec<Sight<'a>>, Settled), Vec<Diagnostic>> {
@@ -70,7 +70,7 @@ fn all_of<T>(
 }
 
 /// What is promised of a finished forest.
-pub struct Certificates {
+pub(crate) struct Certificates {
     pub views: Vec<CertificateReport>,
     pub camouflage: Vec<Camouflage>,
     pub print: Vec<PrintCheck>,
@@ -79,7 +79,11 @@ pub struct Certificates {
 }
 
 /// The certificates of a finished forest, of which `pieces` go on the bed one by one, if it is to come in pieces.
-pub fn certificates(built: &Built, settled: &Settled, pieces: &[(String, DVec3)]) -> Certificates {
+pub(crate) fn certificates(
+    built: &Built,
+    settled: &Settled,
+    pieces: &[(String, DVec3)],
+) -> Certificates {
     let names = built.scene.views.iter().map(|v| v.name.as_str()).collect();
     let finished = Finished::new(&built.forest, &built.bvh, built.field, names);
     let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())

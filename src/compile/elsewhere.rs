@@ -17,7 +17,7 @@ use crate::viewmap::Image;
 const CAMOUFLAGE_PX: u32 = 1600;
 
 /// The tolerance of a view, confirmed by rays at the forest.
-pub fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tolerance {
+pub(crate) fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tolerance {
     let supports = &built.scene.supports;
     let Image {
         view, map, target, ..
@@ -29,7 +29,7 @@ pub fn confirmed_tolerance(built: &Built, sight: &Sight, relief: &Relief) -> Tol
 }
 
 /// How far eyes may move on the level with the picture still one, millimetres; none where nothing ever opens, and for eyes at infinity.
-pub fn rooms(certificates: &[CertificateReport]) -> Vec<Option<f64>> {
+pub(crate) fn rooms(certificates: &[CertificateReport]) -> Vec<Option<f64>> {
     let room = |c: &CertificateReport| {
         let Movement { side, fore, .. } = c.tolerance.one_picture_mm;
         side.into_iter().chain(fore).reduce(f64::min)
@@ -40,7 +40,7 @@ pub fn rooms(certificates: &[CertificateReport]) -> Vec<Option<f64>> {
 }
 
 /// The camouflage of every view, if the scene wants it.
-pub fn camouflages(built: &Built) -> Vec<Camouflage> {
+pub(crate) fn camouflages(built: &Built) -> Vec<Camouflage> {
     let (scene, whole) = (built.scene, &built.forest.whole);
     if !scene.output.camouflage {
         return Vec::new();
@@ -57,7 +57,7 @@ pub fn camouflages(built: &Built) -> Vec<Camouflage> {
 }
 
 /// `camouflage.svg` and `camouflage.png`, if there is any.
-pub fn camouflage_files(scene: &Scene, found: &[Camouflage]) -> Vec<OutputFile> {
+pub(crate) fn camouflage_files(scene: &Scene, found: &[Camouflage]) -> Vec<OutputFile> {
     if found.is_empty() {
         return Vec::new();
     }

@@ -22,12 +22,12 @@ use crate::scene::Scene;
 use crate::view::View;
 
 /// Grey of base and bare pillars in coloured files.
-pub const BARE_COLOUR: [u8; 3] = [198, 194, 186];
+pub(crate) const BARE_COLOUR: [u8; 3] = [198, 194, 186];
 /// Side of the 3MF's thumbnail, pixels.
 const THUMBNAIL_PX: u32 = 512;
 
 /// Everything but the report and the views' pictures; `pieces` are the files of a forest in pieces.
-pub fn forest_files(
+pub(crate) fn forest_files(
     built: &Built,
     pieces: Vec<OutputFile>,
     certificates: &Certificates,
@@ -126,7 +126,7 @@ fn surface_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<Outpu
 }
 
 /// Sections of every view as SVG and PNG, if they are wanted.
-pub fn section_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
+pub(crate) fn section_files(scene: &Scene, shapes: &[Box<dyn Optimised + '_>]) -> Vec<OutputFile> {
     let views = scene.views.iter().zip(shapes.iter().map(AsRef::as_ref));
     let sheet = |(view, shape): (&View, &dyn Optimised)| {
         let sheet = groups_sheet(&view.name, &shape.section());
@@ -162,7 +162,7 @@ fn view_camera(view: &View) -> Camera {
 }
 
 /// `rooms` as in [`plan`].
-pub fn plan_files(scene: &Scene, rooms: &[Option<f64>]) -> Vec<OutputFile> {
+pub(crate) fn plan_files(scene: &Scene, rooms: &[Option<f64>]) -> Vec<OutputFile> {
     let plan = plan(&scene.title, &scene.views, &scene.supports, rooms);
     vec![
         OutputFile::new("plan.svg", plan.svg().into_bytes()),

@@ -5,7 +5,7 @@ use crate::carve::Forest;
 use crate::scene::Scene;
 use crate::support::SupportKind;
 
-pub fn pillars(scene: &Scene) -> usize {
+pub(crate) fn pillars(scene: &Scene) -> usize {
     scene
         .supports
         .iter()
@@ -14,7 +14,7 @@ pub fn pillars(scene: &Scene) -> usize {
 }
 
 /// What reliefs are carried by: "27 pillars", "1 support", or both.
-pub fn carriers(scene: &Scene) -> String {
+pub(crate) fn carriers(scene: &Scene) -> String {
     let bodies = scene.supports.iter().filter(|s| s.is_body()).count();
     let pillars = pillars(scene);
     let plural = if bodies == 1 { "" } else { "s" };
@@ -25,12 +25,12 @@ pub fn carriers(scene: &Scene) -> String {
     }
 }
 
-pub fn counts(scene: &Scene) -> String {
+pub(crate) fn counts(scene: &Scene) -> String {
     format!("{}, {} views", carriers(scene), scene.views.len())
 }
 
 /// What was made, and how like it is.
-pub fn headline(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
+pub(crate) fn headline(scene: &Scene, forest: &Forest, pictures: &[Pictures]) -> String {
     let (lo, hi) = forest.whole.bounds();
     let size = hi - lo;
     let likeness: Vec<String> = scene

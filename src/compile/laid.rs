@@ -13,7 +13,7 @@ use std::borrow::Cow;
 const PLANNING: f64 = 0.3;
 
 /// See the module.
-pub struct LaidScene<'a> {
+pub(crate) struct LaidScene<'a> {
     given: &'a Scene,
     scene: Cow<'a, Scene>,
     /// What was asked of a search and what it found, if there was one.
@@ -24,7 +24,7 @@ pub struct LaidScene<'a> {
 ///
 /// # Errors
 /// Which limits bind.
-pub fn laid<'a>(
+pub(crate) fn laid<'a>(
     given: &'a Scene,
     progress: Progress,
     stop: Stop,
@@ -37,7 +37,7 @@ pub fn laid<'a>(
 ///
 /// # Errors
 /// Which limits bind.
-pub fn laid_at_first<'a>(
+pub(crate) fn laid_at_first<'a>(
     given: &'a Scene,
     progress: Progress,
     stop: Stop,
@@ -76,24 +76,24 @@ fn laid_after<'a>(
 }
 
 impl LaidScene<'_> {
-    pub fn scene(&self) -> &Scene {
+    pub(crate) fn scene(&self) -> &Scene {
         &self.scene
     }
 
     /// Progress of what is left of the run.
-    pub fn rest<'p>(&self, progress: Progress<'p>) -> impl Fn(&str, f64) + Sync + use<'p> {
+    pub(crate) fn rest<'p>(&self, progress: Progress<'p>) -> impl Fn(&str, f64) + Sync + use<'p> {
         let done = self.search.as_ref().map_or(0.0, |_| PLANNING);
         move |stage: &str, share| progress(stage, done + (1.0 - done) * share)
     }
 
     /// The layout found, to be kept.
-    pub fn layout(&self) -> Option<OutputFile> {
+    pub(crate) fn layout(&self) -> Option<OutputFile> {
         let (_, plan) = self.search.as_ref()?;
         Some(layout_file(self.given, plan))
     }
 
     /// Whether time ended the search.
-    pub fn warning(&self) -> Option<Diagnostic> {
+    pub(crate) fn warning(&self) -> Option<Diagnostic> {
         let (brief, plan) = self.search.as_ref()?;
         cut_short(brief, plan)
     }

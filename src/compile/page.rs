@@ -7,7 +7,7 @@ use crate::report::html::{Exhibits, ViewExhibit};
 use crate::scene::Scene;
 
 /// The page, if the scene wants it; it shows what it can of the files made so far, and lists them.
-pub fn page(
+pub(crate) fn page(
     scene: &Scene,
     report: &Report,
     pictures: &[Pictures],

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::view::View;
 
 /// One view's pictures (PNG) and figures.
-pub struct Pictures {
+pub(crate) struct Pictures {
     pub likeness: Likeness,
     pub view: ViewPictures,
     /// In real light, if the scene wants it.
@@ -18,7 +18,7 @@ pub struct Pictures {
 }
 
 /// The pictures of every view.
-pub fn drawn(built: &Built) -> Vec<Pictures> {
+pub(crate) fn drawn(built: &Built) -> Vec<Pictures> {
     let (mesh, bvh, output) = (built.forest.whole.mesh(), &built.bvh, &built.scene.output);
     let of_view = |(v, shape): (&View, &dyn Optimised)| {
         let steps = shape.steps().map(|(lines, all)| (lines, *all));
@@ -39,7 +39,7 @@ pub fn drawn(built: &Built) -> Vec<Pictures> {
 }
 
 /// `turntable.png`, if it is wanted.
-pub fn turntable_file(built: &Built) -> Option<OutputFile> {
+pub(crate) fn turntable_file(built: &Built) -> Option<OutputFile> {
     let output = &built.scene.output;
     let view = built.scene.views.first().filter(|_| output.turntable)?;
     let solid = built.forest.whole.mesh();
@@ -48,7 +48,7 @@ pub fn turntable_file(built: &Built) -> Option<OutputFile> {
 }
 
 /// `views/<view>.png` if `views` are wanted, and `views/<view>-lights.png` if they were drawn.
-pub fn picture_files(scene: &Scene, pictures: &[Pictures], views: bool) -> Vec<OutputFile> {
+pub(crate) fn picture_files(scene: &Scene, pictures: &[Pictures], views: bool) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for (view, drawn) in scene.views.iter().zip(pictures) {
         let name = &view.name;

@@ -83,7 +83,7 @@ fn picture(name: &str, page: &Plan, width_px: u32) -> [OutputFile; 2] {
     ]
 }
 
-pub fn layout_file(scene: &Scene, plan: &Planned) -> OutputFile {
+pub(crate) fn layout_file(scene: &Scene, plan: &Planned) -> OutputFile {
     OutputFile::new(LAYOUT, layout_text(scene, plan).into_bytes())
 }
 

@@ -6,7 +6,7 @@ use crate::scene::defaults;
 use glam::DVec3;
 
 /// Measures a forest against its scene's printer; `bodies` go on the bed one by one.
-pub fn print_checks(built: &Built, bodies: &[(String, DVec3)]) -> Vec<PrintCheck> {
+pub(crate) fn print_checks(built: &Built, bodies: &[(String, DVec3)]) -> Vec<PrintCheck> {
     let (scene, forest) = (built.scene, &built.forest);
     let limits = PrintLimits {
         nozzle: scene.printer.nozzle,

@@ -14,7 +14,7 @@ use crate::words;
 ///
 /// # Errors
 /// If the models do not lie before the eye, nothing of them is seen, no support carries them, or they cannot stay whole.
-pub fn see<'a>(
+pub(crate) fn see<'a>(
     view: &'a View,
     field: &'a SupportField<'a>,
     scene: &Scene,
@@ -29,7 +29,7 @@ pub fn see<'a>(
 ///
 /// # Errors
 /// If nothing is left, or the view's meshes are not cut.
-pub fn give_up<'a>(
+pub(crate) fn give_up<'a>(
     sight: Sight<'a>,
     lost: Vec<Loss>,
     scene: &Scene,
@@ -48,7 +48,7 @@ pub fn give_up<'a>(
 ///
 /// # Errors
 /// If no surface lies within all bounds, or the solver gives up.
-pub fn optimise<'a>(
+pub(crate) fn optimise<'a>(
     sight: &'a Sight<'a>,
     scene: &Scene,
 ) -> Result<Box<dyn Optimised + 'a>, Vec<Diagnostic>> {
@@ -57,7 +57,7 @@ pub fn optimise<'a>(
 }
 
 /// Warnings of iterations that did not converge.
-pub fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) -> Vec<Diagnostic> {
+pub(crate) fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) -> Vec<Diagnostic> {
     let views = sights.iter().zip(shapes.iter().map(AsRef::as_ref));
     let warning = |(sight, shape): (&Sight, &dyn Optimised)| {
         words::iterated::unsettled(sight.name(), shape.depths().iterated.as_ref()?)
@@ -66,7 +66,7 @@ pub fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) -> Vec<Di
 }
 
 /// What of the models a support carries, and why the rest is not. `given_up` are cells without relief in the solid.
-pub fn carried(sight: &Sight, scene: &Scene, given_up: &[CellId]) -> Coverage {
+pub(crate) fn carried(sight: &Sight, scene: &Scene, given_up: &[CellId]) -> Coverage {
     let views: Vec<&str> = scene.views.iter().map(|v| v.name.as_str()).collect();
     coverage(sight, &views, given_up)
 }

@@ -22,7 +22,7 @@ const GRAIN_MM: f64 = 1.0 / 64.0;
 
 /// A forest in pieces; empty if it is to stay in one.
 #[derive(Default)]
-pub struct Divided {
+pub(crate) struct Divided {
     /// Names and sizes of the pieces.
     pub bodies: Vec<(String, DVec3)>,
     pub files: Vec<OutputFile>,
@@ -34,7 +34,7 @@ pub struct Divided {
 ///
 /// # Errors
 /// If it cannot be divided, with what to change.
-pub fn divided(
+pub(crate) fn divided(
     scene: &Scene,
     forest: &Forest,
     progress: Progress,

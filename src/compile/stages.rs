@@ -20,7 +20,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// All that keeps views from being seen or settled.
-pub fn seen<'a>(
+pub(crate) fn seen<'a>(
     scene: &'a Scene,
     field: &'a SupportField<'a>,
     progress: Progress,
@@ -31,7 +31,7 @@ pub fn seen<'a>(
 }
 
 /// What of the models nothing will carry, as warnings: for goals that do not judge the finished forest.
-pub fn missing(scene: &Scene, sights: &[Sight]) -> Vec<Diagnostic> {
+pub(crate) fn missing(scene: &Scene, sights: &[Sight]) -> Vec<Diagnostic> {
     let carrier = carrier(&scene.supports);
     let of = |s: &Sight| warnings(s.name(), &carried(s, scene, &[]), carrier);
     sights.par_iter().flat_map_iter(of).collect()
@@ -41,7 +41,7 @@ pub fn missing(scene: &Scene, sights: &[Sight]) -> Vec<Diagnostic> {
 ///
 /// # Errors
 /// All depths that cannot be found, or why there are no solids.
-pub fn built<'a>(
+pub(crate) fn built<'a>(
     scene: &'a Scene,
     field: &'a SupportField<'a>,
     sights: &'a [Sight<'a>],

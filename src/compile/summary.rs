@@ -11,7 +11,7 @@ use crate::report::{
 use crate::words::{self, carrier::carrier};
 
 /// Gathers what every stage found; `split` are the ladders of a forest in pieces.
-pub fn report(
+pub(crate) fn report(
     built: &Built,
     pictures: &[Pictures],
     certificates: Certificates,

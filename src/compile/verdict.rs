@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::words::{self, carrier::carrier};
 
 /// Everything that does not hold: of the models, of each view, of the forest as one, and of printing it.
-pub fn failures(built: &Built, certificates: &Certificates) -> Vec<Diagnostic> {
+pub(crate) fn failures(built: &Built, certificates: &Certificates) -> Vec<Diagnostic> {
     let scene = built.scene;
     let carrier = carrier(&scene.supports);
     let unseen = certificates.unseen.iter().cloned();

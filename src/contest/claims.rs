@@ -20,7 +20,7 @@ struct Reach {
 }
 
 /// All cells of one view on one support.
-pub struct Claim {
+pub(crate) struct Claim {
     pub view: ViewId,
     pub support: SupportId,
     /// Rising.
@@ -35,13 +35,13 @@ pub struct Claim {
 }
 
 /// Two claims of different views, by index, and their cells that are in each other's way, rising.
-pub struct Meeting {
+pub(crate) struct Meeting {
     pub claims: [usize; 2],
     pub pairs: Vec<[CellId; 2]>,
 }
 
 /// What all views claim, by view, then support.
-pub fn claims(sights: &[Sight]) -> Vec<Claim> {
+pub(crate) fn claims(sights: &[Sight]) -> Vec<Claim> {
     let of_view = |(v, sight): (usize, &Sight)| {
         let mut cells = vec![Vec::new(); sight.image.field.supports.len()];
         for (c, group) in sight.groups.of_cell.iter().enumerate() {
@@ -143,7 +143,7 @@ fn surface_reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -
 }
 
 /// All cells of different views that are in each other's way: the volume of one meets the sight lines of the other.
-pub fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
+pub(crate) fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
     let mut found: Vec<([usize; 2], Vec<[CellId; 2]>)> = (0..claims.len())
         .into_par_iter()
         .flat_map_iter(|a| blocked(sights, claims, a))

@@ -10,7 +10,7 @@ use glam::DVec2;
 const EYE: f64 = 4.0;
 
 /// All eyes with their names. `rooms` are how far they may move, `numbers` stand before the names; both may be empty.
-pub fn eyes(
+pub(crate) fn eyes(
     drawing: &mut Drawing,
     page: &Page,
     views: &[View],
@@ -71,7 +71,13 @@ pub fn eyes(
 }
 
 /// The places to which an eye may move with its picture still one, at true scale: over the eye's symbol, which is often larger.
-pub fn room_of_eye(drawing: &mut Drawing, page: &Page, at: DVec2, room: f64, colour: [u8; 3]) {
+pub(crate) fn room_of_eye(
+    drawing: &mut Drawing,
+    page: &Page,
+    at: DVec2,
+    room: f64,
+    colour: [u8; 3],
+) {
     let rim = |ink, width: f64| Some(Pen::new(ink, width * page.u));
     let ink = Ink::new(colour).fade(0.25);
     drawing.circle(at, room, None, rim(PAPER, 0.7));
@@ -79,7 +85,7 @@ pub fn room_of_eye(drawing: &mut Drawing, page: &Page, at: DVec2, room: f64, col
 }
 
 /// From the eye towards what it looks at; with a break if the eye is further away than drawn.
-pub fn arrow(
+pub(crate) fn arrow(
     drawing: &mut Drawing,
     page: &Page,
     at: DVec2,
@@ -125,7 +131,7 @@ fn rays(drawing: &mut Drawing, page: &Page, at: DVec2, ahead: DVec2, colour: [u8
 }
 
 /// An upright eye of half width `r`.
-pub fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
+pub(crate) fn eye_symbol(drawing: &mut Drawing, at: DVec2, r: f64, colour: [u8; 3]) {
     let point = |x: f64, y: f64| at + r * DVec2::new(x, y);
     let steps = vec![
         Verb::Move(point(-1.0, 0.0)),

@@ -9,7 +9,7 @@ use crate::view::View;
 const ARC_STEP: f64 = 0.01;
 
 /// See the module.
-pub struct Facts<'a> {
+pub(crate) struct Facts<'a> {
     pub title: &'a str,
     pub views: &'a [View],
     pub supports: &'a [Support],
@@ -23,7 +23,7 @@ pub struct Facts<'a> {
 }
 
 impl<'a> Facts<'a> {
-    pub fn new(
+    pub(crate) fn new(
         title: &'a str,
         views: &'a [View],
         supports: &'a [Support],
@@ -43,7 +43,7 @@ impl<'a> Facts<'a> {
         }
     }
 
-    pub fn pillars(&self) -> usize {
+    pub(crate) fn pillars(&self) -> usize {
         self.supports
             .iter()
             .filter(|s| matches!(s.kind, SupportKind::Pillar { .. }))

@@ -23,7 +23,7 @@ const COVERED: f64 = 141.0;
 /// The overview's box.
 const BOX: (f64, f64) = (150.0, 198.0);
 
-pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+pub(crate) fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.polyline(
         &[page.at(12.0, TABLE - 9.0), page.at(198.0, TABLE - 9.0)],
         Pen::new(HAIR, 0.25 * page.u),

@@ -9,7 +9,7 @@ use crate::diagram::vista::{Sector, Vista};
 use crate::support::{Support, SupportKind};
 use glam::DVec2;
 
-pub fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
+pub(crate) fn draw(drawing: &mut Drawing, page: &Page, facts: &Facts) {
     drawing.rect(DVec2::ZERO, page.size(), Some(PAPER), None);
     heading(drawing, page, facts);
     base(drawing, page, facts);
@@ -64,7 +64,13 @@ fn base(drawing: &mut Drawing, page: &Page, facts: &Facts) {
 }
 
 /// The range of one interval: from the eye, or from the range's end if the eye is drawn nearer than it is, to what it meets.
-pub fn fan(drawing: &mut Drawing, page: &Page, vista: &Vista, sectors: &[Sector], colour: [u8; 3]) {
+pub(crate) fn fan(
+    drawing: &mut Drawing,
+    page: &Page,
+    vista: &Vista,
+    sectors: &[Sector],
+    colour: [u8; 3],
+) {
     let hits: Vec<(f64, f64)> = sectors
         .iter()
         .flat_map(|r| r.hits.iter().copied())
@@ -93,7 +99,7 @@ pub fn fan(drawing: &mut Drawing, page: &Page, vista: &Vista, sectors: &[Sector]
 }
 
 /// What lies before some hits of an eye, as a polygon on the page: what they hit first, then back along the eye's side.
-pub fn range(page: &Page, vista: &Vista, hits: &[(f64, f64)]) -> Vec<DVec2> {
+pub(crate) fn range(page: &Page, vista: &Vista, hits: &[(f64, f64)]) -> Vec<DVec2> {
     let ends = |hit: &(f64, f64)| stretch(page, vista, *hit);
     let far = hits.iter().filter_map(ends).map(|s| s.1);
     let near = hits.iter().rev().filter_map(ends).map(|s| s.0);
@@ -110,7 +116,7 @@ fn stretch(page: &Page, vista: &Vista, (angle, t): (f64, f64)) -> Option<(DVec2,
 }
 
 /// Distances at which a ray from `from` (relative to a circle's centre) enters and leaves the circle.
-pub fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
+pub(crate) fn chord(from: DVec2, direction: DVec2, radius: f64) -> Option<(f64, f64)> {
     let along = from.dot(direction);
     let root = (along * along - from.length_squared() + radius * radius).sqrt();
     (root.is_finite() && root - along > 0.0).then_some((-along - root, -along + root))

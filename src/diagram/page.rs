@@ -9,14 +9,14 @@ use crate::diagram::lettering::Typeface;
 use crate::support::Support;
 use glam::DVec2;
 
-pub const PAPER: Ink = Ink::new([0xFC, 0xFB, 0xF8]);
-pub const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
-pub const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);
-pub const HAIR: Ink = Ink::new([0xC9, 0xC6, 0xBE]);
-pub const BASE: Ink = Ink::new([0xF1, 0xEE, 0xE6]);
+pub(crate) const PAPER: Ink = Ink::new([0xFC, 0xFB, 0xF8]);
+pub(crate) const TEXT: Ink = Ink::new([0x22, 0x26, 0x2B]);
+pub(crate) const QUIET: Ink = Ink::new([0x6F, 0x73, 0x78]);
+pub(crate) const HAIR: Ink = Ink::new([0xC9, 0xC6, 0xBE]);
+pub(crate) const BASE: Ink = Ink::new([0xF1, 0xEE, 0xE6]);
 /// A pillar that no eye sees within its models' angles.
-pub const FREE: Ink = Ink::new([0xDA, 0xD7, 0xCF]);
-pub const RED: Ink = Ink::new([0xC4, 0x12, 0x1E]);
+pub(crate) const FREE: Ink = Ink::new([0xDA, 0xD7, 0xCF]);
+pub(crate) const RED: Ink = Ink::new([0xC4, 0x12, 0x1E]);
 
 const WIDTH: f64 = 210.0;
 const LEAST_HEIGHT: f64 = 297.0;
@@ -29,13 +29,13 @@ const PANEL_EDGES: [f64; 2] = [1.13, 1.31];
 const LABEL: f64 = 0.6;
 const PANEL_LABEL: f64 = 0.24;
 /// Top of the table of views, and the height of one of its rows.
-pub const TABLE: f64 = 240.0;
-pub const ROW: f64 = 6.0;
+pub(crate) const TABLE: f64 = 240.0;
+pub(crate) const ROW: f64 = 6.0;
 /// Room below the table: key and scale bar.
 const BELOW: f64 = 33.0;
 
 /// Where things of the forest lie on the page.
-pub struct Page {
+pub(crate) struct Page {
     /// Middle of the forest and radius of the circle around it, millimetres.
     pub centre: DVec2,
     pub radius: f64,
@@ -55,7 +55,7 @@ pub struct Page {
 }
 
 impl Page {
-    pub fn new(facts: &Facts) -> Self {
+    pub(crate) fn new(facts: &Facts) -> Self {
         let outlines = facts.supports.iter().flat_map(Support::outline);
         let (centre, radius) = circle(outlines.copied());
         let rows = facts.views.len() as f64;
@@ -77,7 +77,7 @@ impl Page {
     }
 
     /// A map as part of a page of other measures: eyes and all within `room`, middle and radius of the forest in scene coordinates.
-    pub fn panel((centre, radius): (DVec2, f64), room: [DVec2; 2], u: f64) -> Self {
+    pub(crate) fn panel((centre, radius): (DVec2, f64), room: [DVec2; 2], u: f64) -> Self {
         let (size, rim) = (room[1] - room[0], PANEL_EDGES[1] * radius);
         // Half an eye stands beyond the rim.
         let reach = (size.min_element() / 2.0 - 3.2 * u).max(u);
@@ -96,37 +96,37 @@ impl Page {
     }
 
     /// Millimetres.
-    pub fn size(&self) -> DVec2 {
+    pub(crate) fn size(&self) -> DVec2 {
         self.u * DVec2::new(WIDTH, self.height)
     }
 
     /// A place given in layout units from the top left corner.
-    pub fn at(&self, x: f64, y: f64) -> DVec2 {
+    pub(crate) fn at(&self, x: f64, y: f64) -> DVec2 {
         self.u * DVec2::new(x, y)
     }
 
     /// Bottom edge in layout units.
-    pub fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.height
     }
 
     /// The page's place of a point of the scene, true scale.
-    pub fn place(&self, p: DVec2) -> DVec2 {
+    pub(crate) fn place(&self, p: DVec2) -> DVec2 {
         let d = p - self.centre;
         self.middle + self.scale * DVec2::new(d.x, -d.y)
     }
 
     /// A length of the scene on the page.
-    pub fn scaled(&self, mm: f64) -> f64 {
+    pub(crate) fn scaled(&self, mm: f64) -> f64 {
         self.scale * mm
     }
 
-    pub fn outline(&self, points: &[DVec2]) -> Vec<DVec2> {
+    pub(crate) fn outline(&self, points: &[DVec2]) -> Vec<DVec2> {
         points.iter().map(|p| self.place(*p)).collect()
     }
 
     /// Where an eye is drawn (scene coordinates), and whether that is nearer than it stands.
-    pub fn stand(&self, eye: DVec2) -> (DVec2, bool) {
+    pub(crate) fn stand(&self, eye: DVec2) -> (DVec2, bool) {
         let d = eye - self.centre;
         if d.length() <= self.rim {
             (eye, false)
@@ -136,13 +136,13 @@ impl Page {
     }
 
     /// Text of a size in layout units.
-    pub fn style(&self, size: f64, face: Typeface, ink: Ink, anchor: Align) -> TextStyle {
+    pub(crate) fn style(&self, size: f64, face: Typeface, ink: Ink, anchor: Align) -> TextStyle {
         TextStyle::new(size * self.u, face, ink, anchor)
     }
 }
 
 /// Middle and radius of a circle around all points; the unit is arbitrary if there are none.
-pub fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
+pub(crate) fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
     let points: Vec<DVec2> = points.filter(|p| p.is_finite()).collect();
     let lo = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let hi = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -159,17 +159,17 @@ pub fn circle(points: impl Iterator<Item = DVec2>) -> (DVec2, f64) {
 }
 
 /// A colour mixed with white, 0 to 1.
-pub fn pale(rgb: [u8; 3], white: f64) -> Ink {
+pub(crate) fn pale(rgb: [u8; 3], white: f64) -> Ink {
     Ink::new(rgb.map(|c| (f64::from(c) + white * (255.0 - f64::from(c))).round() as u8))
 }
 
 /// A colour mixed with black, 0 to 1.
-pub fn deep(rgb: [u8; 3], black: f64) -> Ink {
+pub(crate) fn deep(rgb: [u8; 3], black: f64) -> Ink {
     Ink::new(rgb.map(|c| (f64::from(c) * (1.0 - black)).round() as u8))
 }
 
 /// A length for people: millimetres below a metre.
-pub fn length(mm: f64) -> String {
+pub(crate) fn length(mm: f64) -> String {
     if mm < 1000.0 {
         format!("{mm:.0} mm")
     } else {

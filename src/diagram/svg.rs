@@ -18,7 +18,7 @@ impl Drawing {
 }
 
 /// A document up to its first shape; [`CLOSING`] ends it.
-pub fn opening(size: DVec2, title: &str) -> String {
+pub(crate) fn opening(size: DVec2, title: &str) -> String {
     let (w, h) = (number(size.x), number(size.y));
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
@@ -28,9 +28,9 @@ pub fn opening(size: DVec2, title: &str) -> String {
     svg
 }
 
-pub const CLOSING: &str = "</g>\n</svg>\n";
+pub(crate) const CLOSING: &str = "</g>\n</svg>\n";
 
-pub fn push_shape(svg: &mut String, shape: &Mark) {
+pub(crate) fn push_shape(svg: &mut String, shape: &Mark) {
     svg.push_str("<path");
     push_ink(svg, "fill", shape.fill);
     if let Some(pen) = shape.pen {
@@ -86,7 +86,7 @@ fn push_step(svg: &mut String, step: Verb) {
 }
 
 /// A thousandth of a unit is enough for any printer; trailing zeros and -0 are left out.
-pub fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     let text = format!("{:.3}", if x.is_finite() { x } else { 0.0 });
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" {

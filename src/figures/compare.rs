@@ -6,7 +6,7 @@ use super::workshop::{LEAN, Workshop, with};
 use crate::compile::OutputFile;
 use crate::diagram::chart::{Chart, Line, chart};
 
-pub const DEPTHS: Figure = Figure {
+pub(crate) const DEPTHS: Figure = Figure {
     name: "fig10",
     paper: "Fig 10",
     title: "A hare in five layers, ever thinner",
@@ -85,7 +85,7 @@ fn depths(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const GRADIENTS: Figure = Figure {
+pub(crate) const GRADIENTS: Figure = Figure {
     name: "fig11",
     paper: "Fig 11",
     title: "Against compressed gradients",

@@ -7,7 +7,7 @@ use super::workshop::{LEAN, Workshop, with};
 use crate::mimic::Ending;
 use std::rc::Rc;
 
-pub const SCALE: Figure = Figure {
+pub(crate) const SCALE: Figure = Figure {
     name: "fig05",
     paper: "Fig 5",
     title: "What invariance to scale is for",
@@ -30,7 +30,7 @@ fn scale(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const BOX: Figure = Figure {
+pub(crate) const BOX: Figure = Figure {
     name: "fig06",
     paper: "Fig 6",
     title: "Linearised against iterated Laplacian",
@@ -90,7 +90,7 @@ fn ending(made: &Made) -> &'static str {
     }
 }
 
-pub const MEAN_CURVATURE: Figure = Figure {
+pub(crate) const MEAN_CURVATURE: Figure = Figure {
     name: "fig07",
     paper: "Fig 7",
     title: "With and without the mean curvature",
@@ -117,7 +117,7 @@ fn mean_curvature(shop: &mut Workshop, found: &mut Findings) -> Result<(), Strin
     Ok(())
 }
 
-pub const HIDDEN: Figure = Figure {
+pub(crate) const HIDDEN: Figure = Figure {
     name: "fig09",
     paper: "Fig 9",
     title: "What hidden vertices count",
@@ -148,7 +148,7 @@ fn hidden(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const CONIC: Figure = Figure {
+pub(crate) const CONIC: Figure = Figure {
     name: "appendix",
     paper: "Appendix",
     title: "The conic form",

@@ -4,7 +4,7 @@ use super::made::Made;
 use crate::compile::OutputFile;
 
 /// A number by its name, which tells its unit.
-pub type Number = (&'static str, f64);
+pub(crate) type Number = (&'static str, f64);
 
 /// Everything found for a figure.
 #[derive(Clone, Debug, Default)]

@@ -17,7 +17,7 @@ const SCENES: [(&str, &str, &[&str]); 3] = [
 ];
 const SUNS: [&str; 3] = ["sun_15", "sun_30", "sun_60"];
 
-pub const SUN_AND_CLOUD: Figure = Figure {
+pub(crate) const SUN_AND_CLOUD: Figure = Figure {
     name: "fig18",
     paper: "Fig 18",
     title: "Sunny and cloudy days",
@@ -60,7 +60,7 @@ fn sun_and_cloud(shop: &mut Workshop, found: &mut Findings) -> Result<(), String
     Ok(())
 }
 
-pub const FLASH: Figure = Figure {
+pub(crate) const FLASH: Figure = Figure {
     name: "fig19",
     paper: "Fig 19",
     title: "A flash nearby",

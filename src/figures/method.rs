@@ -5,7 +5,7 @@ use super::findings::Findings;
 use super::made::Made;
 use super::workshop::{LEAN, Workshop, with};
 
-pub const GROUPS: Figure = Figure {
+pub(crate) const GROUPS: Figure = Figure {
     name: "fig08",
     paper: "Fig 8",
     title: "Groups with scales of their own",
@@ -28,7 +28,7 @@ fn groups(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const ORDERING: Figure = Figure {
+pub(crate) const ORDERING: Figure = Figure {
     name: "eq12",
     paper: "Inset at Eq 12",
     title: "Depth order on and off",

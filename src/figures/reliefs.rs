@@ -10,7 +10,7 @@ const EXACT_MM: f64 = 1e-6;
 /// Of a model's solid angle: what hairs at the edges of reliefs may cost.
 const WHOLE: f64 = 0.999;
 
-pub const STAIRS: Figure = Figure {
+pub(crate) const STAIRS: Figure = Figure {
     name: "fig03",
     paper: "Fig 3",
     title: "An owl on a staircase",
@@ -37,7 +37,7 @@ fn stairs(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const GROOVE: Figure = Figure {
+pub(crate) const GROOVE: Figure = Figure {
     name: "fig04",
     paper: "Fig 4",
     title: "A dragon's head carved into a V",
@@ -54,7 +54,7 @@ fn groove(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const FREE: Figure = Figure {
+pub(crate) const FREE: Figure = Figure {
     name: "fig12",
     paper: "Fig 12",
     title: "An imp whose arm and ear are free: no height field",
@@ -100,7 +100,7 @@ fn free(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const WAVE: Figure = Figure {
+pub(crate) const WAVE: Figure = Figure {
     name: "fig13",
     paper: "Fig 13",
     title: "A fish in a wavy sea",
@@ -121,7 +121,7 @@ fn wave(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const FOREST: Figure = Figure {
+pub(crate) const FOREST: Figure = Figure {
     name: "fig15",
     paper: "Figs 14 and 15",
     title: "Four models in a forest of pillars",
@@ -159,7 +159,7 @@ fn forest(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const STRIPS: Figure = Figure {
+pub(crate) const STRIPS: Figure = Figure {
     name: "fig16",
     paper: "Fig 16",
     title: "One head on five strips",
@@ -183,7 +183,7 @@ fn strips(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
     Ok(())
 }
 
-pub const HERD: Figure = Figure {
+pub(crate) const HERD: Figure = Figure {
     name: "fig17",
     paper: "Fig 17",
     title: "A herd on one plate",
@@ -206,7 +206,7 @@ fn herd(shop: &mut Workshop, found: &mut Findings) -> Result<(), String> {
 }
 
 /// How far reliefs come before their datum and go behind it.
-pub fn layer(made: &Made) -> Result<(Number, Number), String> {
+pub(crate) fn layer(made: &Made) -> Result<(Number, Number), String> {
     let front = made.most(|c| c.relief_front_mm)?;
     let back = made.most(|c| c.relief_back_mm)?;
     Ok((("relief_front_mm", front), ("relief_back_mm", back)))

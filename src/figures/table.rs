@@ -48,7 +48,7 @@ fn cases(cases: &[Case]) -> String {
 }
 
 /// Names of all numbers in the order in which they come.
-pub fn names(cases: &[Case]) -> Vec<&'static str> {
+pub(crate) fn names(cases: &[Case]) -> Vec<&'static str> {
     let mut names: Vec<&'static str> = Vec::new();
     for (name, _) in cases.iter().flat_map(|c| &c.measured) {
         if !names.contains(name) {
@@ -59,7 +59,7 @@ pub fn names(cases: &[Case]) -> Vec<&'static str> {
 }
 
 /// As people read it; a dash where the case has none.
-pub fn number(case: &Case, name: &str) -> String {
+pub(crate) fn number(case: &Case, name: &str) -> String {
     let Some((_, value)) = case.measured.iter().find(|m| m.0 == name) else {
         return "\u{2013}".to_owned();
     };

@@ -25,7 +25,7 @@ const SCENES: [(&str, &str, &str, &[&str]); 9] = [
     ("Pillar forest", "../four-creatures", "detail=5500", &[]),
 ];
 
-pub const TIMES: Figure = Figure {
+pub(crate) const TIMES: Figure = Figure {
     name: "table1",
     paper: "Table 1",
     title: "Sizes and times",

@@ -63,7 +63,7 @@ fn slug(name: &str) -> String {
 }
 
 /// Outputs that comparisons do without.
-pub const LEAN: [&str; 6] = [
+pub(crate) const LEAN: [&str; 6] = [
     "output.lights=false",
     "output.camouflage=false",
     "output.report_html=false",
@@ -73,6 +73,6 @@ pub const LEAN: [&str; 6] = [
 ];
 
 /// Both lists as one.
-pub fn with<'s>(sets: &[&'s str], more: &[&'s str]) -> Vec<&'s str> {
+pub(crate) fn with<'s>(sets: &[&'s str], more: &[&'s str]) -> Vec<&'s str> {
     [sets, more].concat()
 }

@@ -25,7 +25,7 @@ impl Bound {
 const NO_VERTEX: VertexId = VertexId(u32::MAX);
 
 /// The bounds of a view, and how many of them come first because they do not follow from others.
-pub fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
+pub(crate) fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
     let (map, target) = (&image.map, &image.target);
     // One bound for each group, plane of the layer, point and set of vertices: cells that share a corner on a mesh vertex or
     // edge agree there.

@@ -25,7 +25,7 @@ pub enum Bounded {
 ///
 /// # Errors
 /// If its models lie before several supports, or before several parts of one.
-pub fn held(sight: Sight, bounded: Bounded) -> Result<Sight, MustBeCut> {
+pub(crate) fn held(sight: Sight, bounded: Bounded) -> Result<Sight, MustBeCut> {
     let Sight { image, groups, .. } = &sight;
     let Some(support) = one_surface(&groups.groups)? else {
         return Ok(sight);

@@ -7,7 +7,7 @@ use super::program::{Program, Row};
 use crate::mesh::DisjointSets;
 
 /// A part of a program with its places in the whole.
-pub struct ProgramBlock {
+pub(crate) struct ProgramBlock {
     pub program: Program,
     /// Variable of the whole program of each of the block's.
     pub variables: Vec<u32>,
@@ -16,7 +16,7 @@ pub struct ProgramBlock {
 }
 
 /// The blocks, by their first variables.
-pub fn blocks(program: &Program) -> Vec<ProgramBlock> {
+pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
     let mut sets = DisjointSets::new(program.variables);
     let mut join = |terms: &[(usize, f64)]| {
         terms

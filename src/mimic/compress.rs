@@ -38,7 +38,7 @@ const HALVINGS: u32 = 52;
 ///
 /// # Errors
 /// If no surface lies within all bounds.
-pub fn linear(sight: &Sight) -> Result<Depths, SolveError> {
+pub(crate) fn linear(sight: &Sight) -> Result<Depths, SolveError> {
     let shape = vec![1.0; sight.image.target.mesh.vertices.len()];
     compressed(&shape, sight, LINEAR)
 }
@@ -47,7 +47,7 @@ pub fn linear(sight: &Sight) -> Result<Depths, SolveError> {
 ///
 /// # Errors
 /// If no surface lies within all bounds.
-pub fn compressed(
+pub(crate) fn compressed(
     shape: &[f64],
     sight: &Sight,
     not_an_optimum: &'static str,

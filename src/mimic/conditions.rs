@@ -76,7 +76,7 @@ impl Condition {
 
 /// All conditions, and how many of them come first.
 #[derive(Clone, Debug)]
-pub struct Conditions {
+pub(crate) struct Conditions {
     pub all: Vec<Condition>,
     /// So many are worth a row from the start, as [`FirstRows`] says.
     pub rows: usize,
@@ -92,7 +92,7 @@ const ROUNDS: u32 = 12;
 const ROUNDS_OF_ORDERS: u32 = 40;
 
 /// See [`Conditions`].
-pub fn all(groups: &Groups, keeping: &Keeping) -> Conditions {
+pub(crate) fn all(groups: &Groups, keeping: &Keeping) -> Conditions {
     let bounds = bounds(groups);
     let conditions: Vec<Condition> = orders(&keeping.orders.all).collect();
     let is_first = |c: &Condition| match c.kind {
@@ -155,7 +155,7 @@ fn orders(orders: &[Order]) -> impl Iterator<Item = Condition> {
 }
 
 /// The tangent of `ln tau` at the depths `s`, as `sum of coefficient * x + constant`: its coefficients have the sum 1.
-pub fn log_tangent(anchor: &Anchor, s: &[f64]) -> (Vec<(VertexId, f64)>, f64) {
+pub(crate) fn log_tangent(anchor: &Anchor, s: &[f64]) -> (Vec<(VertexId, f64)>, f64) {
     let tau = anchor.relative_depth(s);
     let terms: Vec<(VertexId, f64)> = anchor.terms().map(|(v, w)| (v, w * tau / s[v])).collect();
     let at: f64 = terms.iter().map(|(v, p)| p * s[*v].ln()).sum();
@@ -163,7 +163,7 @@ pub fn log_tangent(anchor: &Anchor, s: &[f64]) -> (Vec<(VertexId, f64)>, f64) {
 }
 
 /// The tangent of `tau` at the depths `s`, as `sum of coefficient * s`: it passes through 0.
-pub fn plain_tangent(anchor: &Anchor, s: &[f64]) -> Vec<(VertexId, f64)> {
+pub(crate) fn plain_tangent(anchor: &Anchor, s: &[f64]) -> Vec<(VertexId, f64)> {
     let tau = anchor.relative_depth(s);
     let terms = anchor.terms();
     terms

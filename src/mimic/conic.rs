@@ -9,7 +9,7 @@ use super::program::Program;
 use sprs::TriMat;
 
 /// Lines `A x + slack = b`: first the program's equalities, then `t = F u`, then the program's rows, then the cone's slacks.
-pub struct Conic {
+pub(crate) struct Conic {
     pub linear: Vec<f64>,
     pub lines: TriMat<f64>,
     pub limits: Vec<f64>,
@@ -18,7 +18,7 @@ pub struct Conic {
 }
 
 /// The program in conic form.
-pub fn conic(program: &Program) -> Conic {
+pub(crate) fn conic(program: &Program) -> Conic {
     let (n, m) = (program.variables, program.factor.len());
     let v = n + m;
     let parts = [program.equalities.len() + m, program.rows.len(), m + 2];

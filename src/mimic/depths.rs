@@ -20,7 +20,7 @@ pub struct Depths {
 }
 
 /// The solid angle seen of every face, steradians.
-pub fn seen_solid_angles(image: &Image) -> Vec<f64> {
+pub(crate) fn seen_solid_angles(image: &Image) -> Vec<f64> {
     let Image { target, map, .. } = image;
     let mut seen = vec![0.0; target.mesh.faces.len()];
     for (c, cell) in map.all() {
@@ -33,7 +33,7 @@ pub fn seen_solid_angles(image: &Image) -> Vec<f64> {
 
 /// The median width of the bounds in log depth, but no less than `least`: the unit of all unknowns, so that the solver's tolerances
 /// mean the same in every scene.
-pub fn typical_width(groups: &Groups, least: f64) -> f64 {
+pub(crate) fn typical_width(groups: &Groups, least: f64) -> f64 {
     let widths = groups.bounds.iter().map(|b| (b.upper / b.lower).ln());
     let mut widths: Vec<f64> = widths.filter(|w| w.is_finite()).collect();
     widths.sort_by(f64::total_cmp);
@@ -47,7 +47,7 @@ pub fn typical_width(groups: &Groups, least: f64) -> f64 {
 /// The smallest scale that keeps a group within its upper bounds (the paper's choice among equal optima: as close to the
 /// support as the layer allows), in closed form because a regulariser does not determine it to the last digits. Groups that
 /// an order ties to another keep the scale `free` of the solution.
-pub fn scales(
+pub(crate) fn scales(
     groups: &Groups,
     conditions: &[Condition],
     s: &[f64],

@@ -39,7 +39,7 @@ const REGULARISER: f64 = 1e-9;
 ///
 /// # Errors
 /// If no surface lies within all bounds.
-pub fn depths(options: GradientOptions, sight: &Sight) -> Result<Depths, SolveError> {
+pub(crate) fn depths(options: GradientOptions, sight: &Sight) -> Result<Depths, SolveError> {
     let change = WantedChange::new(options.compression, &sight.image).integrated()?;
     let focal = sight.image.map.plane.focal;
     let shape: Vec<f64> = change.iter().map(|x| (x / focal).exp()).collect();

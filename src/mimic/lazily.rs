@@ -10,12 +10,12 @@ use super::solve::{Method, Solution, SolveError, Solved, solve, solve_again};
 const BROKEN: f64 = 1e-9;
 /// Conditions are tightened by this share of a layer's width, 7 nm of 7 mm, which is above the residuals of the solver: so the
 /// result keeps them strictly.
-pub const MARGIN: f64 = 1e-6;
+pub(crate) const MARGIN: f64 = 1e-6;
 /// Relative depths of all vertices and scales of all groups.
-pub type DepthsAndScales = (Vec<f64>, Vec<f64>);
+pub(crate) type DepthsAndScales = (Vec<f64>, Vec<f64>);
 
 /// How an energy's unknowns relate to depths.
-pub struct Meaning<'a> {
+pub(crate) struct Meaning<'a> {
     pub depths: &'a dyn Fn(&[f64]) -> DepthsAndScales,
     /// The row of a condition's tangents at the depths given.
     pub tangent: &'a dyn Fn(&Condition, &[f64]) -> Option<Row>,
@@ -34,7 +34,7 @@ impl Meaning<'_> {
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_lazily(
+pub(crate) fn solve_lazily(
     program: &mut Program,
     conditions: &Conditions,
     meaning: &Meaning,

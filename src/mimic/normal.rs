@@ -36,7 +36,7 @@ const HIDDEN: f64 = 0.1;
 const TIE: f64 = 10.0;
 
 /// Depths of the faces that take part.
-pub fn depths(
+pub(crate) fn depths(
     options: NormalOptions,
     sight: &Sight,
     keeping: &Keeping,

@@ -47,13 +47,13 @@ pub struct Program {
 }
 
 /// Gathers `P` term by term.
-pub struct Quadratic {
+pub(crate) struct Quadratic {
     triplets: TriMat<f64>,
     factor: Vec<Vec<(usize, f64)>>,
 }
 
 impl Quadratic {
-    pub fn new(variables: usize) -> Self {
+    pub(crate) fn new(variables: usize) -> Self {
         Self {
             triplets: TriMat::new((variables, variables)),
             factor: Vec::new(),
@@ -61,19 +61,19 @@ impl Quadratic {
     }
 
     /// Adds `weight * (u_i - u_j)^2`; the weight may be negative, so that this has no part in a factor.
-    pub fn difference(&mut self, i: usize, j: usize, weight: f64) {
+    pub(crate) fn difference(&mut self, i: usize, j: usize, weight: f64) {
         self.triplets.add_triplet(i, i, 2.0 * weight);
         self.triplets.add_triplet(j, j, 2.0 * weight);
         self.triplets.add_triplet(i.min(j), i.max(j), -2.0 * weight);
     }
 
     /// Adds `weight * u_i^2`.
-    pub fn square(&mut self, i: usize, weight: f64) {
+    pub(crate) fn square(&mut self, i: usize, weight: f64) {
         self.form(&[(i, 1.0)], weight);
     }
 
     /// Adds `weight * (sum of coefficient * u)^2`.
-    pub fn form(&mut self, terms: &[(usize, f64)], weight: f64) {
+    pub(crate) fn form(&mut self, terms: &[(usize, f64)], weight: f64) {
         let root = (2.0 * weight).sqrt();
         self.factor.push(gathered(
             terms.iter().map(|(i, a)| (*i, root * a)).collect(),
@@ -88,18 +88,18 @@ impl Quadratic {
     }
 
     /// The upper triangle.
-    pub fn finish(self) -> CsMat<f64> {
+    pub(crate) fn finish(self) -> CsMat<f64> {
         self.triplets.to_csc()
     }
 
     /// The upper triangle, and rows of an `F` with `P = F'F` if no differences were added.
-    pub fn finish_with_factor(self) -> (CsMat<f64>, Vec<Vec<(usize, f64)>>) {
+    pub(crate) fn finish_with_factor(self) -> (CsMat<f64>, Vec<Vec<(usize, f64)>>) {
         (self.triplets.to_csc(), self.factor)
     }
 }
 
 /// Mean of the diagonal of the first `n` variables: the scale regularisers are relative to.
-pub fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
+pub(crate) fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
     let sum: f64 = quadratic
         .iter()
         .filter(|(_, (i, j))| i == j && *i < n)
@@ -109,7 +109,7 @@ pub fn mean_diagonal(quadratic: &CsMat<f64>, n: usize) -> f64 {
 }
 
 /// Terms of one variable as one, in rising order.
-pub fn gathered(mut terms: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+pub(crate) fn gathered(mut terms: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     terms.sort_by_key(|t| t.0);
     terms.dedup_by(|b, a| {
         let same = a.0 == b.0;

@@ -101,7 +101,7 @@ pub fn solve(program: &Program) -> Result<Solution, SolveError> {
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_again(
+pub(crate) fn solve_again(
     program: &Program,
     before: &Solution,
     new_rows: usize,

@@ -52,7 +52,7 @@ pub struct Pillar {
 }
 
 /// A place rounded as it is written.
-pub fn rounded(at: DVec2) -> DVec2 {
+pub(crate) fn rounded(at: DVec2) -> DVec2 {
     (at * 1e3).round() / 1e3
 }
 

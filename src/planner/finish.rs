@@ -30,7 +30,7 @@ const RAYS: Rays = Rays {
 };
 
 /// What a search came to.
-pub struct Harvest<'a> {
+pub(crate) struct Harvest<'a> {
     pub views: &'a [View],
     pub task: &'a Task<'a>,
     pub start: Start,
@@ -41,7 +41,7 @@ pub struct Harvest<'a> {
     pub aside: Vec<Annealed>,
 }
 
-pub fn finished(harvest: Harvest) -> Planned {
+pub(crate) fn finished(harvest: Harvest) -> Planned {
     let Harvest {
         views,
         task,

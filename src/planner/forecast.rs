@@ -44,7 +44,7 @@ struct Painted {
 
 /// Sums over rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// Angles between the normals, degrees.
     pub error_deg: f64,
     /// `max(0, 1 - angle / 90 degrees)`; nothing where the forest is missed.
@@ -70,11 +70,11 @@ impl Tally {
         }
     }
 
-    pub fn mean_error_deg(&self) -> f64 {
+    pub(crate) fn mean_error_deg(&self) -> f64 {
         self.error_deg / self.rays.max(1) as f64
     }
 
-    pub fn mean_agreement(&self) -> f64 {
+    pub(crate) fn mean_agreement(&self) -> f64 {
         self.agreement / self.rays.max(1) as f64
     }
 }
@@ -91,7 +91,7 @@ impl Sum for Tally {
 
 /// What a layout is seen with.
 #[derive(Clone, Copy)]
-pub struct Forecast<'a> {
+pub(crate) struct Forecast<'a> {
     pub subjects: &'a [&'a Subject],
     pub brief: &'a Brief,
     pub pillars: &'a [Pillar],
@@ -100,7 +100,7 @@ pub struct Forecast<'a> {
 
 impl Forecast<'_> {
     /// One outlook.
-    pub fn seen(&self, outlook: &Outlook) -> Tally {
+    pub(crate) fn seen(&self, outlook: &Outlook) -> Tally {
         outlook
             .columns
             .iter()
@@ -109,7 +109,7 @@ impl Forecast<'_> {
     }
 
     /// One column of an outlook from `eye`.
-    pub fn column(&self, eye: DVec3, column: &OutlookColumn) -> Tally {
+    pub(crate) fn column(&self, eye: DVec3, column: &OutlookColumn) -> Tally {
         if column.rays.is_empty() {
             return Tally::default();
         }

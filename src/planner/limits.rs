@@ -37,7 +37,7 @@ pub struct Remedies {
 }
 
 /// What binds. `views` are as the scene has them, `faults` those of the best layout met.
-pub fn binding(views: &[View], brief: &Brief, start: Start, faults: Vec<Fault>) -> NoLayout {
+pub(crate) fn binding(views: &[View], brief: &Brief, start: Start, faults: Vec<Fault>) -> NoLayout {
     let tops = brief.shapes.iter().map(|s| s.heights[1]);
     NoLayout {
         stuck: start.stuck,

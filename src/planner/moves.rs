@@ -11,7 +11,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 /// A candidate: its pillars, and the pose of every view.
-pub type Proposal = (Vec<Pillar>, Vec<usize>);
+pub(crate) type Proposal = (Vec<Pillar>, Vec<usize>);
 
 /// A bell curve of standard deviation 1 that ends at 3.5.
 fn bell(rng: &mut Pcg64Mcg) -> f64 {
@@ -19,7 +19,12 @@ fn bell(rng: &mut Pcg64Mcg) -> f64 {
 }
 
 /// A random change of a layout; `None` if the chosen kind does not apply. Hotter (0 to 1), steps are longer.
-pub fn propose(task: &Task, rng: &mut Pcg64Mcg, layout: &Layout, heat: f64) -> Option<Proposal> {
+pub(crate) fn propose(
+    task: &Task,
+    rng: &mut Pcg64Mcg,
+    layout: &Layout,
+    heat: f64,
+) -> Option<Proposal> {
     let fault = (!layout.is_sound() && rng.random_range(0..2) == 0)
         .then(|| layout.survey.faults[rng.random_range(0..layout.survey.faults.len())]);
     let kind = match fault.map(|f| f.kind) {

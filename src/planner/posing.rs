@@ -40,7 +40,7 @@ pub fn foot(view: &View) -> glam::DVec3 {
 }
 
 /// Prepares all views, with their models in several poses if they may change.
-pub fn prepared(views: &[View], brief: &Brief) -> Vec<Vec<Pose>> {
+pub(crate) fn prepared(views: &[View], brief: &Brief) -> Vec<Vec<Pose>> {
     let pose = |view: &View, adjustment: Adjustment| {
         let view = posed(view, &adjustment);
         let target = view.target();

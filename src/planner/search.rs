@@ -16,10 +16,10 @@ use rayon::prelude::*;
 const CHAINS: u64 = 2;
 /// Share of the tries spent on layouts at other tolerances, for the trade-off, and these tolerances: shares of the chosen layout's up to 1,
 /// from there to 2 on the way to that of the first layout.
-pub const ASIDE: f64 = 0.25;
+pub(crate) const ASIDE: f64 = 0.25;
 const OTHERS: [f64; 5] = [0.5, 0.75, 1.3, 1.6, 1.9];
 /// Heat at which those begin, and mending: near what there is.
-pub const WARM: f64 = 0.6;
+pub(crate) const WARM: f64 = 0.6;
 /// First and last temperature, in units of score; it falls with the square of the heat. At 0.25 most of a search on the reference forest
 /// is spent on layouts full of faults, at 0.02 it stays near its start: both end a degree or two lower.
 const HOT: f64 = 0.05;
@@ -40,7 +40,7 @@ const BINS: usize = 80;
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// What a chain has found.
-pub struct Annealed {
+pub(crate) struct Annealed {
     /// The best layout without faults; or else the one with least energy.
     pub best: Layout,
     /// Tries until then and layout, at regular steps.
@@ -96,7 +96,7 @@ impl Annealed {
 }
 
 /// The best of [`CHAINS`] chains from one layout, with the tries of all.
-pub fn best_of(
+pub(crate) fn best_of(
     task: &Task,
     from: &Layout,
     tries: u64,
@@ -148,7 +148,7 @@ fn together(chains: Vec<Annealed>) -> Annealed {
 }
 
 /// Short searches at other tolerances: from the chosen layout at lower ones, from the first one, which has room for more, at higher ones.
-pub fn aside(
+pub(crate) fn aside(
     task: &Task,
     [first, chosen]: [&Layout; 2],
     tries: u64,

@@ -92,7 +92,7 @@ pub fn start(subjects: &[&Subject], brief: &Brief) -> Start {
 }
 
 /// The given pillars, each with the view that sees most of it.
-pub fn owned(subjects: &[&Subject], brief: &Brief) -> Vec<Pillar> {
+pub(crate) fn owned(subjects: &[&Subject], brief: &Brief) -> Vec<Pillar> {
     let mut pillars = brief.given.clone();
     let survey = Survey::new(subjects, brief, &pillars);
     for (i, pillar) in pillars.iter_mut().enumerate() {

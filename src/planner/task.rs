@@ -20,7 +20,7 @@ const DEGREES: f64 = 10.0;
 /// Pillars worth a score of 1.
 const PILLARS: f64 = 10.0;
 /// Tolerances beyond this are as good as any, millimetres.
-pub const AMPLE_MM: f64 = 100.0;
+pub(crate) const AMPLE_MM: f64 = 100.0;
 /// No normal is farther off than this, degrees.
 const FARTHEST_OFF_DEG: f64 = 180.0;
 /// Faults weigh this much more than changes.
@@ -31,7 +31,7 @@ const COME_OR_GO: f64 = 0.5;
 const A_MM: f64 = 0.02;
 
 /// A view with its models in one pose.
-pub struct Pose {
+pub(crate) struct Pose {
     pub adjustment: Adjustment,
     pub subject: Subject,
     pub outlooks: Vec<Outlook>,
@@ -39,7 +39,7 @@ pub struct Pose {
 
 /// What is to be solved.
 #[derive(Clone, Copy)]
-pub struct Task<'a> {
+pub(crate) struct Task<'a> {
     pub brief: &'a Brief,
     /// Index: view, pose; the first pose is the scene's own.
     pub poses: &'a [Vec<Pose>],
@@ -48,7 +48,7 @@ pub struct Task<'a> {
 
 /// What makes a layout good once it is without faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
+pub(crate) enum Aim {
     /// Nothing more: the search ends with the first such layout.
     Sound,
     /// What the brief says matters.
@@ -59,7 +59,7 @@ pub enum Aim {
 
 /// A layout with all that is known of it.
 #[derive(Clone)]
-pub struct Layout {
+pub(crate) struct Layout {
     pub pillars: Vec<Pillar>,
     /// Index: view.
     pub poses: Vec<usize>,
@@ -72,12 +72,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         self.survey.faults.is_empty()
     }
 
     /// Least forecast of all views, degrees.
-    pub fn least_hidden(&self) -> f64 {
+    pub(crate) fn least_hidden(&self) -> f64 {
         self.hidden_deg
             .iter()
             .copied()
@@ -86,7 +86,7 @@ impl Layout {
 }
 
 impl Task<'_> {
-    pub fn subjects(&self, poses: &[usize]) -> Vec<&Subject> {
+    pub(crate) fn subjects(&self, poses: &[usize]) -> Vec<&Subject> {
         self.poses
             .iter()
             .zip(poses)
@@ -95,7 +95,7 @@ impl Task<'_> {
     }
 
     /// Everything of a layout, from nothing.
-    pub fn layout(&self, pillars: Vec<Pillar>, poses: Vec<usize>) -> Layout {
+    pub(crate) fn layout(&self, pillars: Vec<Pillar>, poses: Vec<usize>) -> Layout {
         let subjects = self.subjects(&poses);
         let survey = Survey::new(&subjects, self.brief, &pillars);
         let forest = Forecast {
@@ -130,7 +130,7 @@ impl Task<'_> {
     }
 
     /// The layout of these pillars and poses, a few of which differ from the old one's; `None` if its energy is surely above `ceiling`.
-    pub fn after(
+    pub(crate) fn after(
         &self,
         old: &Layout,
         (pillars, poses): (Vec<Pillar>, Vec<usize>),
@@ -230,7 +230,7 @@ impl Task<'_> {
 
     /// What the brief's weights make of a layout: a view's likeness hidden by ten degrees more, an eye tolerance twice as large, ten
     /// pillars fewer or spaces between them all equal are worth one weight each. Of the views the worst counts most.
-    pub fn score(&self, layout: &Layout) -> f64 {
+    pub(crate) fn score(&self, layout: &Layout) -> f64 {
         let matters = &self.brief.matters;
         let hidden = soft_least(layout.hidden_deg.iter().copied(), SOFT_DEG) / DEGREES;
         let views = 0..layout.survey.rates.len();

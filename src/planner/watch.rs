@@ -10,7 +10,7 @@ pub struct Watch<'a> {
 }
 
 /// Reports progress of several chains as one, and passes on when to stop.
-pub fn follow<'a>(
+pub(crate) fn follow<'a>(
     watch: Watch<'a>,
     stage: &'a str,
     [from, to]: [f64; 2],

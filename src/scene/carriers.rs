@@ -17,7 +17,7 @@ use glam::DVec2;
 
 /// What the scene says of pillars, base and other supports.
 #[derive(Default)]
-pub struct Carriers {
+pub(crate) struct Carriers {
     colonnade: Colonnade,
     /// What is to be found or mended.
     brief: Option<Brief>,
@@ -30,7 +30,7 @@ pub struct Carriers {
 }
 
 /// Reads pillars, base, other supports and depth layers.
-pub fn carriers(
+pub(crate) fn carriers(
     reader: &mut Reader,
     raw: &RawScene,
     scene_span: &Span,
@@ -180,7 +180,7 @@ impl Carriers {
     }
 
     /// Rules that join several values.
-    pub fn check(&self, reader: &mut Reader, eyes: &[Eye], around: &Around) {
+    pub(crate) fn check(&self, reader: &mut Reader, eyes: &[Eye], around: &Around) {
         let before = reader.problems.len();
         let checked = checks::Checked {
             pillars: &self.colonnade.pillars,
@@ -197,7 +197,7 @@ impl Carriers {
     }
 
     /// How many pillars there may be.
-    pub fn most_pillars(&self) -> usize {
+    pub(crate) fn most_pillars(&self) -> usize {
         match (&self.brief, &self.room) {
             (Some(brief), Some(_)) => brief.count[1],
             _ => self.colonnade.pillars.len(),
@@ -205,7 +205,7 @@ impl Carriers {
     }
 
     /// How the models of every view are changed.
-    pub fn adjusted(&self, views: &[&str]) -> Vec<Adjustment> {
+    pub(crate) fn adjusted(&self, views: &[&str]) -> Vec<Adjustment> {
         let list = self.included.as_ref().map_or(&[][..], |i| &i.adjust);
         let of = |view: &&str| list.iter().find(|(v, _)| v == view);
         let found = views.iter().map(of);
@@ -215,12 +215,12 @@ impl Carriers {
     }
 
     /// Supports that are no pillars.
-    pub fn bodies(&self) -> &[Support] {
+    pub(crate) fn bodies(&self) -> &[Support] {
         &self.bodies
     }
 
     /// The solids, and what is to be done about them.
-    pub fn finished(self) -> (Vec<Support>, Option<Brief>) {
+    pub(crate) fn finished(self) -> (Vec<Support>, Option<Brief>) {
         let mut supports = self.colonnade.solids();
         supports.extend(self.bodies);
         (supports, self.brief)

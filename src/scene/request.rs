@@ -7,7 +7,7 @@ pub type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Diagnostic>;
 
 /// What a scene is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
+pub(crate) enum Purpose {
     /// Its pillars stand where they are, or are to be found.
     Build,
     /// Its pillars are a first draft: where they stand in each other's way is no mistake.

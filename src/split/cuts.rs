@@ -15,14 +15,14 @@ use glam::{DVec2, DVec3};
 const PIN_WIDTH_MM: f64 = 6.0;
 const PIN_LENGTH_MM: f64 = 4.0;
 /// Material wanted around holes and beside cuts, millimetres.
-pub const WALL_MM: f64 = 1.2;
+pub(crate) const WALL_MM: f64 = 1.2;
 /// Where cuts and pins may lie is tried in steps of this, millimetres.
 const STEP_MM: f64 = 0.5;
 /// Beyond any base, millimetres; and how far tools start outside of what they cut.
 const OUT_MM: f64 = 10.0;
 
 /// The base to be cut.
-pub struct Baseplate<'a> {
+pub(crate) struct Baseplate<'a> {
     pub outline: &'a [DVec2],
     pub thickness: f64,
     /// One outline a socket.
@@ -79,7 +79,7 @@ impl Baseplate<'_> {
     }
 
     /// As few plates as the bed asks for; `None` if it is too small for any.
-    pub fn cuts(&self, bed: [f64; 3]) -> Option<Cuts> {
+    pub(crate) fn cuts(&self, bed: [f64; 3]) -> Option<Cuts> {
         let (lo, hi) = self.bounds();
         let size = hi - lo;
         let beds = [DVec2::new(bed[0], bed[1]), DVec2::new(bed[1], bed[0])];
@@ -105,7 +105,7 @@ impl Baseplate<'_> {
     }
 
     /// Two pins for each cut between two plates, where there is room.
-    pub fn pins(&self, cuts: &Cuts) -> Vec<Pin> {
+    pub(crate) fn pins(&self, cuts: &Cuts) -> Vec<Pin> {
         let (lo, hi) = self.bounds();
         let (x, y) = (lines(lo.x, &cuts.x, hi.x), lines(lo.y, &cuts.y, hi.y));
         let mut pins = Vec::new();
@@ -163,7 +163,7 @@ impl Baseplate<'_> {
     }
 
     /// The plate in a cell of the grid without its sockets; `None` if the base does not reach there.
-    pub fn plate(
+    pub(crate) fn plate(
         &self,
         cuts: &Cuts,
         pins: &[Pin],
@@ -213,7 +213,7 @@ impl Baseplate<'_> {
 }
 
 /// Columns and rows of a grid.
-pub fn grid(cuts: &Cuts) -> Vec<(usize, usize)> {
+pub(crate) fn grid(cuts: &Cuts) -> Vec<(usize, usize)> {
     let rows = 0..=cuts.y.len();
     rows.flat_map(|j| (0..=cuts.x.len()).map(move |i| (i, j)))
         .collect()
@@ -242,7 +242,7 @@ fn range(outline: &[DVec2], k: usize) -> (f64, f64) {
 }
 
 /// Whether a ring lies inside an outline, at least `margin` from it.
-pub fn is_inside(outline: &[DVec2], ring: &[DVec2], margin: f64) -> bool {
+pub(crate) fn is_inside(outline: &[DVec2], ring: &[DVec2], margin: f64) -> bool {
     let n = outline.len();
     let clear = |p: &DVec2| {
         contains(outline, *p)

@@ -12,7 +12,12 @@ const NUMBER_MARGIN_MM: f64 = 0.8;
 const NUMBER_WAYS: usize = 24;
 
 /// Finds a place for every number beside its socket.
-pub fn label(outline: &[DVec2], holes: &[Vec<DVec2>], options: &SplitOptions, split: &mut Split) {
+pub(crate) fn label(
+    outline: &[DVec2],
+    holes: &[Vec<DVec2>],
+    options: &SplitOptions,
+    split: &mut Split,
+) {
     let mut taken: Vec<[DVec2; 4]> = Vec::new();
     let cuts = split.cuts.clone();
     for (socket, hole) in split.sockets.iter_mut().zip(holes) {

@@ -8,16 +8,16 @@ use crate::mesh::Solid;
 use glam::{DVec2, DVec3};
 
 /// Thinnest base that can have sockets, millimetres.
-pub const THINNEST_BASE_MM: f64 = 2.0;
+pub(crate) const THINNEST_BASE_MM: f64 = 2.0;
 /// Depth of engraved numbers, millimetres: three layers of most printers.
-pub const ENGRAVED_MM: f64 = 0.6;
+pub(crate) const ENGRAVED_MM: f64 = 0.6;
 /// Width of an engraved stroke in nozzles: as wanted, and the least that is still a stroke.
-pub const STROKE_NOZZLES: [f64; 3] = [2.0, 1.5, 1.1];
+pub(crate) const STROKE_NOZZLES: [f64; 3] = [2.0, 1.5, 1.1];
 /// Pillars have met if they share more than this, cubic millimetres.
-pub const MET_MM3: f64 = 1e-6;
+pub(crate) const MET_MM3: f64 = 1e-6;
 /// Places at which a piece is tried that does not come out sound: far out, where f32 is coarse, a little aside of that, and at last
 /// about the origin.
-pub const PLACES: usize = 5;
+pub(crate) const PLACES: usize = 5;
 
 /// What is given.
 #[derive(Clone, Copy, Debug, PartialEq)]

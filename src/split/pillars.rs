@@ -11,7 +11,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Pillars that belong together because their reliefs meet: positions in `numbered`.
-pub fn meeting(standing: &[Solid], numbered: &[usize]) -> Result<Vec<Vec<usize>>, BooleanError> {
+pub(crate) fn meeting(
+    standing: &[Solid],
+    numbered: &[usize],
+) -> Result<Vec<Vec<usize>>, BooleanError> {
     let boxes: Vec<(DVec3, DVec3)> = numbered.iter().map(|s| standing[*s].bounds()).collect();
     let meet = |a: usize, b: usize| {
         boxes[a].0.cmple(boxes[b].1).all() && boxes[b].0.cmple(boxes[a].1).all()
@@ -34,7 +37,7 @@ pub fn meeting(standing: &[Solid], numbered: &[usize]) -> Result<Vec<Vec<usize>>
 }
 
 /// One pillar, or several whose reliefs meet, with pegs.
-pub fn pillar(
+pub(crate) fn pillar(
     supports: &[Support],
     standing: &[Solid],
     numbered: &[usize],

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 const MOST_PLATES: usize = 256;
 
 /// The base of a forest; lengths in millimetres.
-pub struct Base<'a> {
+pub(crate) struct Base<'a> {
     pub outline: &'a [DVec2],
     pub thickness: f64,
     /// Depth of its sockets.
@@ -29,7 +29,7 @@ type Numbered = (Boolean, Vec<usize>);
 ///
 /// # Errors
 /// A bed too small for any plate, or a plate that does not come out sound.
-pub fn plates(
+pub(crate) fn plates(
     supports: &[Support],
     base: &Base,
     options: &SplitOptions,

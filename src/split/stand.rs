@@ -15,7 +15,11 @@ const NUDGE: DVec3 = DVec3::new(3.1e-6, 4.7e-6, 0.0);
 
 /// Raises a body by `up` and checks it; with the place ([`PLACES`]) at which it was sound. It is rounded as it would be at [`FAR`], so that it can be moved about there exactly: a
 /// sliver that is sound near the origin may turn over where f32 is coarser.
-pub fn standing_on_zero(body: &Boolean, up: f64, name: &str) -> Result<(Solid, usize), CarveError> {
+pub(crate) fn standing_on_zero(
+    body: &Boolean,
+    up: f64,
+    name: &str,
+) -> Result<(Solid, usize), CarveError> {
     let body = body.without_crumbs(CRUMB_MM3).0;
     let at = |by: DVec3| {
         let put = body.moved(by + up * DVec3::Z);
@@ -35,11 +39,11 @@ pub fn standing_on_zero(body: &Boolean, up: f64, name: &str) -> Result<(Solid, u
     Ok((sound(&at(DVec3::ZERO)?, name)?.solid, last))
 }
 
-pub fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
+pub(crate) fn moved(mesh: &TriMesh, by: DVec3) -> TriMesh {
     mesh.transformed(DMat4::from_translation(by))
 }
 
 /// Cut down to a multiple of [`GRAIN_MM`].
-pub fn grained(x: f64) -> f64 {
+pub(crate) fn grained(x: f64) -> f64 {
     (x / GRAIN_MM).floor() * GRAIN_MM
 }

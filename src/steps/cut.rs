@@ -25,7 +25,7 @@ const CLOSED: f64 = 1.5;
 const SHARED: f64 = 1e-3;
 
 /// The target cut along outlines and tear lines, with the view map that refers to it.
-pub struct Cut {
+pub(crate) struct Cut {
     pub target: Target,
     pub map: ViewMap,
     /// The target's vertex at every vertex of the cut mesh.
@@ -50,7 +50,7 @@ indices! {
 
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
 /// allowed, or in the wrong order, so that the program has a solution to begin with.
-pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64) -> Cut {
+pub(crate) fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64) -> Cut {
     let Image { target, map, .. } = image;
     let pairs = corner_pairs(target, patches);
     let vertex = |c: Corner| vertex(target, patches, c);
@@ -91,7 +91,7 @@ pub fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64)
 }
 
 /// The lowest step at a vertex of the cut `target`, millimetres of depth.
-pub fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Option<f64> {
+pub(crate) fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Option<f64> {
     let z = |v: VertexId| target.depth[v] * depths.s[v];
     let heights = steps.iter().map(|s| z(s.far) - z(s.near));
     heights.min_by(f64::total_cmp)
@@ -100,7 +100,12 @@ pub fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Option<f64
 impl Cut {
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
     /// Patches that are `absorbed` hardly count.
-    pub fn opening(&self, patches: &Patches, options: &StepOptions, absorbed: &[bool]) -> Opening {
+    pub(crate) fn opening(
+        &self,
+        patches: &Patches,
+        options: &StepOptions,
+        absorbed: &[bool],
+    ) -> Opening {
         let sign = match options.prefer {
             Prefer::Tolerance => PREFERENCE,
             Prefer::Camouflage => -PREFERENCE,

@@ -22,7 +22,7 @@ const DISORDER: f64 = 1e5;
 
 /// Prices of the functional; see the module `steps`.
 #[derive(Clone, Copy, Debug)]
-pub struct Prices {
+pub(crate) struct Prices {
     /// Square degrees of a tilt by 1 radian (first order).
     pub tilt: f64,
     /// A millimetre of tear line, in square degrees times square millimetres.
@@ -36,12 +36,12 @@ pub struct Prices {
 }
 
 /// Log relief depth over the model's at every corner of every patch.
-pub type PatchDepths = Vec<[f64; 3]>;
+pub(crate) type PatchDepths = Vec<[f64; 3]>;
 
 /// Where descents begin: the model's depths (at the corners of a patch) pressed into the layer from front to back. Continuous,
 /// within all bounds, and sheets stand apart in their order: from the layer's middle, where they would touch, neither can move
 /// alone, and the sweeps end up to a quarter higher where there are contours, at double where steps are limited.
-pub fn pressed(patches: &[Patch], depth: impl Fn(&Patch) -> [f64; 3]) -> PatchDepths {
+pub(crate) fn pressed(patches: &[Patch], depth: impl Fn(&Patch) -> [f64; 3]) -> PatchDepths {
     let all = || patches.iter().flat_map(&depth);
     let nearest = all().fold(f64::INFINITY, f64::min);
     let range = all().fold(0.0, f64::max) - nearest;
@@ -61,7 +61,7 @@ pub fn pressed(patches: &[Patch], depth: impl Fn(&Patch) -> [f64; 3]) -> PatchDe
 }
 
 /// One support's share of the functional.
-pub struct Functional<'a> {
+pub(crate) struct Functional<'a> {
     patches: &'a Patches,
     prices: Prices,
     /// Patches of the support.
@@ -75,7 +75,7 @@ pub struct Functional<'a> {
 
 impl<'a> Functional<'a> {
     /// `range` must hold all patches of a support: seams lead nowhere else.
-    pub fn new(patches: &'a Patches, prices: Prices, range: std::ops::Range<usize>) -> Self {
+    pub(crate) fn new(patches: &'a Patches, prices: Prices, range: std::ops::Range<usize>) -> Self {
         let first = |at: usize| patches.seams.partition_point(|s| s.patches[0].at() < at);
         let seams = &patches.seams[first(range.start)..first(range.end)];
         let local = |s: &Seam| s.patches.map(|p| p.at() - range.start);
@@ -108,12 +108,12 @@ impl<'a> Functional<'a> {
         SAME / self.patches.focal
     }
 
-    pub fn patches(&self) -> &Patches {
+    pub(crate) fn patches(&self) -> &Patches {
         self.patches
     }
 
     /// The support's patches among all.
-    pub fn range(&self) -> std::ops::Range<usize> {
+    pub(crate) fn range(&self) -> std::ops::Range<usize> {
         self.range.clone()
     }
 
@@ -124,7 +124,7 @@ impl<'a> Functional<'a> {
     }
 
     /// The piece of every patch: those that hang together.
-    pub fn pieces(&self, field: &PatchDepths) -> Vec<u32> {
+    pub(crate) fn pieces(&self, field: &PatchDepths) -> Vec<u32> {
         let mut sets = DisjointSets::new(self.range.len());
         for s in self.seams.iter().filter(|s| self.closed(s, field)) {
             let [a, b] = self.local(s);
@@ -134,7 +134,7 @@ impl<'a> Functional<'a> {
     }
 
     /// Patches that are `wanted`, by piece and neighbourhood.
-    pub fn regions(&self, pieces: &[u32], wanted: &[bool]) -> Vec<Vec<u32>> {
+    pub(crate) fn regions(&self, pieces: &[u32], wanted: &[bool]) -> Vec<Vec<u32>> {
         let mut sets = DisjointSets::new(self.range.len());
         for s in self.seams {
             let [a, b] = self.local(s);
@@ -154,7 +154,12 @@ impl<'a> Functional<'a> {
     }
 
     /// Gives a region the level of the neighbour outside `but` that makes it cheapest, drawn in to the layer; whether it has one.
-    pub fn join_cheapest(&self, field: &mut PatchDepths, region: &[u32], but: &[bool]) -> bool {
+    pub(crate) fn join_cheapest(
+        &self,
+        field: &mut PatchDepths,
+        region: &[u32],
+        but: &[bool],
+    ) -> bool {
         let own = field[region[0] as usize];
         let mut levels: Vec<f64> = region
             .iter()
@@ -406,7 +411,7 @@ impl<'a> Functional<'a> {
 
     /// Sweeps all levels over the field until nothing changes. A level is tried again only if something changed within its
     /// reach since it was last tried.
-    pub fn descend(&self, field: &mut PatchDepths) {
+    pub(crate) fn descend(&self, field: &mut PatchDepths) {
         let levels = self.levels();
         let mut variable = vec![u32::MAX; self.range.len()];
         // The move at which each patch last changed, and at which each level was last tried.

@@ -53,7 +53,7 @@ pub struct StepSummary {
 }
 
 /// The number of tear lines: pairs of pieces that meet in a step.
-pub fn count(target: &Target, patches: &Patches, field: &PatchDepths) -> usize {
+pub(crate) fn count(target: &Target, patches: &Patches, field: &PatchDepths) -> usize {
     let step = |s: &Seam, end: usize| {
         let [a, b] = s.patches.map(|p| &field[p]);
         s.jump(end, a, b).abs() * patches.depth
@@ -96,7 +96,7 @@ fn tears<'a>(target: &'a Target, patches: &'a Patches) -> impl Iterator<Item = (
 }
 
 /// All tear lines of the solved surface, and their figures.
-pub fn lines(
+pub(crate) fn lines(
     image: &Image,
     patches: &Patches,
     corners: &[[VertexId; 3]],

@@ -21,7 +21,7 @@ const UNIT: f64 = 1.0 / (1 << 20) as f64;
 const NEVER: f64 = 1e9;
 
 /// A binary energy under construction.
-pub struct BinaryEnergy {
+pub(crate) struct BinaryEnergy {
     /// Tail, head and room of arcs; every second is the reverse of the one before.
     arcs: Vec<(NodeId, NodeId, i64)>,
     /// Cost of 1 less cost of 0 of every variable.
@@ -29,7 +29,7 @@ pub struct BinaryEnergy {
 }
 
 impl BinaryEnergy {
-    pub fn new(variables: usize) -> Self {
+    pub(crate) fn new(variables: usize) -> Self {
         Self {
             arcs: Vec::new(),
             tilt: vec![0.0; variables],
@@ -37,12 +37,12 @@ impl BinaryEnergy {
     }
 
     /// Adds what variable `i` costs at 0 and at 1; infinite costs forbid.
-    pub fn unary(&mut self, i: usize, zero: f64, one: f64) {
+    pub(crate) fn unary(&mut self, i: usize, zero: f64, one: f64) {
         self.tilt[i] += one.min(NEVER) - zero.min(NEVER);
     }
 
     /// Adds the cost of a pair, `[c00, c01, c10, c11]`. Where it is not submodular, `c01` is raised until it is.
-    pub fn pair(&mut self, i: usize, j: usize, cost: [f64; 4]) {
+    pub(crate) fn pair(&mut self, i: usize, j: usize, cost: [f64; 4]) {
         let [a, b, c, d] = cost.map(|x| x.min(NEVER));
         // c00 + (c10 - c00) x_i + (c11 - c10) x_j + (c01 + c10 - c00 - c11) (1 - x_i) x_j
         self.tilt[i] += c - a;
@@ -57,7 +57,7 @@ impl BinaryEnergy {
     }
 
     /// The variables of a minimum; of several, the one with fewest ones.
-    pub fn minimise(self) -> Vec<bool> {
+    pub(crate) fn minimise(self) -> Vec<bool> {
         let mut flow = Flow::new(&self.arcs, &self.tilt);
         flow.run();
         let ones = flow.nodes.iter();
@@ -386,4 +386,4 @@ impl Flow {
 }
 
 #[cfg(test)]
-pub mod tests;
+pub(crate) mod tests;

@@ -18,7 +18,7 @@ indices! {
 
 /// The part of a face that is seen on one group.
 #[derive(Clone, Debug)]
-pub struct Patch {
+pub(crate) struct Patch {
     pub face: FaceId,
     pub group: GroupId,
     pub support: SupportId,
@@ -37,7 +37,7 @@ pub struct Patch {
 
 /// A bounded point of a patch: `lower <= sum of weight * y <= upper` (linearised in log depth).
 #[derive(Clone, Copy, Debug)]
-pub struct PatchPoint {
+pub(crate) struct PatchPoint {
     pub weights: [f64; 3],
     pub lower: f64,
     pub upper: f64,
@@ -45,7 +45,7 @@ pub struct PatchPoint {
 
 /// A line along which two patches meet in the image.
 #[derive(Clone, Debug)]
-pub struct Seam {
+pub(crate) struct Seam {
     pub patches: [PatchId; 2],
     /// Weights of both patches' corners at both ends.
     pub ends: [[[f64; 3]; 2]; 2],
@@ -63,7 +63,7 @@ pub struct Seam {
 
 /// A side where the relief ends at another support's.
 #[derive(Clone, Copy, Debug)]
-pub struct Rim {
+pub(crate) struct Rim {
     pub patch: PatchId,
     /// Whether its own support is the nearer one.
     pub near: bool,
@@ -72,32 +72,32 @@ pub struct Rim {
 
 impl Patch {
     /// The constant `level`, drawn in to the layer at the corners.
-    pub fn drawn_in(&self, level: f64) -> [f64; 3] {
+    pub(crate) fn drawn_in(&self, level: f64) -> [f64; 3] {
         self.room.map(|(lo, hi)| level.clamp(lo, hi))
     }
 }
 
 impl Seam {
     /// Whether the model itself hangs together along all of it: no contour.
-    pub fn hangs_together(&self) -> bool {
+    pub(crate) fn hangs_together(&self) -> bool {
         self.gaps == [0.0; 2]
     }
 
     /// The jump at one end from the second patch to the first, whose corners are given.
-    pub fn jump(&self, end: usize, first: &[f64; 3], second: &[f64; 3]) -> f64 {
+    pub(crate) fn jump(&self, end: usize, first: &[f64; 3], second: &[f64; 3]) -> f64 {
         let [w, v] = &self.ends[end];
         mixed(w, first) - mixed(v, second)
     }
 }
 
 /// The weighted sum of a patch's corners.
-pub fn mixed(weights: &[f64; 3], corners: &[f64; 3]) -> f64 {
+pub(crate) fn mixed(weights: &[f64; 3], corners: &[f64; 3]) -> f64 {
     (0..3).map(|k| weights[k] * corners[k]).sum()
 }
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub struct Patches {
+pub(crate) struct Patches {
     pub patches: Vec<Patch>,
     /// Patch of every cell of the map.
     pub of_cell: Vec<Option<PatchId>>,
@@ -115,7 +115,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    pub fn new(limits: &StepLimits, sight: &Sight) -> Self {
+    pub(crate) fn new(limits: &StepLimits, sight: &Sight) -> Self {
         let Image { target, map, .. } = &sight.image;
         let (keys, of_cell) = numbered(map, &sight.groups);
         let depth = mean_depth(target, map);
@@ -154,7 +154,7 @@ impl Patches {
     }
 
     /// Patches of every support, which stand together, with its cells.
-    pub fn by_support(&self) -> Vec<(Range<usize>, Vec<CellId>)> {
+    pub(crate) fn by_support(&self) -> Vec<(Range<usize>, Vec<CellId>)> {
         let mut ranges: Vec<(Range<usize>, Vec<CellId>)> = Vec::new();
         let mut of_patch = Vec::with_capacity(self.patches.len());
         for (i, p) in self.patches.iter().enumerate() {

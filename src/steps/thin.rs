@@ -21,7 +21,7 @@ const TEAR_MM: f64 = 0.2;
 const ROUNDS: usize = 3;
 
 /// Gives every strip narrower than `narrowest_mm` to a neighbour; which patches of the support were given away.
-pub fn absorb_thin(
+pub(crate) fn absorb_thin(
     image: &Image,
     functional: &Functional,
     cells: &[CellId],

@@ -18,7 +18,7 @@ pub const GRIDS: [f64; 3] = [
 ];
 
 /// Triangulates the window with the edges of the wanted faces and the outlines as constraints. Labels are left empty.
-pub fn arrange(
+pub(crate) fn arrange(
     plane: &ImagePlane,
     target: &Target,
     wanted: &[bool],
@@ -150,7 +150,7 @@ fn triangulate(
 }
 
 /// For every cell the cells across its three sides.
-pub fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
+pub(crate) fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
     let across = face_neighbours(&TriMesh {
         vertices: Vec::new(),
         faces: cells

@@ -16,7 +16,7 @@ const PLANE: f64 = 1e-9;
 const GRAZED: f64 = 1e-3;
 
 /// A piece of outline in the image.
-pub type Segment = [DVec2; 2];
+pub(crate) type Segment = [DVec2; 2];
 
 /// An outline edge in space with its image and inverse depths.
 struct OutlineEdge {
@@ -25,7 +25,7 @@ struct OutlineEdge {
 }
 
 /// The pieces of all supports' outlines inside the rectangle `window` that are not hidden by another support.
-pub fn seen_outlines(
+pub(crate) fn seen_outlines(
     plane: &ImagePlane,
     field: &SupportField,
     window: (DVec2, DVec2),

@@ -11,7 +11,7 @@ use crate::index::{CellId, PointId};
 use glam::DVec2;
 
 /// Gives every cell a height of at least `height` (image units) where the triangulation allows it.
-pub fn merge_thin(map: &mut ViewMap, height: f64) {
+pub(crate) fn merge_thin(map: &mut ViewMap, height: f64) {
     let mut work = MergeWork::new(map, height);
     work.run();
     let (points, cells) = work.finish();

@@ -4,12 +4,12 @@ use assert_cmd::Command;
 use std::fs;
 use std::path::Path;
 
-pub const PLAIN: &str = include_str!("../cases/ok.ron");
-pub const CUBE: &str = "v -10 -10 -10\nv 10 -10 -10\nv 10 10 -10\nv -10 10 -10\nv -10 -10 10\nv 10 -10 10\nv 10 10 10\nv -10 10 10\n\
+pub(crate) const PLAIN: &str = include_str!("../cases/ok.ron");
+pub(crate) const CUBE: &str = "v -10 -10 -10\nv 10 -10 -10\nv 10 10 -10\nv -10 10 -10\nv -10 -10 10\nv 10 -10 10\nv 10 10 10\nv -10 10 10\n\
 f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
 
 /// A fresh directory with a cube and a scene of the given text.
-pub fn folder(scene: &str) -> tempfile::TempDir {
+pub(crate) fn folder(scene: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("cube.obj"), CUBE).unwrap();
     fs::write(folder.path().join("scene.ron"), scene).unwrap();
@@ -17,7 +17,7 @@ pub fn folder(scene: &str) -> tempfile::TempDir {
 }
 
 /// Runs the program; gives exit code, standard output and standard error.
-pub fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
+pub(crate) fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
     let output = Command::cargo_bin("pillarforest")
         .unwrap()
         .current_dir(folder)

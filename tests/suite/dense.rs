@@ -9,7 +9,7 @@ use pillarforest::support::{Datum, Support, SupportKind};
 const NEAR: f64 = 1e-3;
 
 /// A square raster of rays; a ray is `eye + depth * direction(q)`, and `depth` runs along `forward`.
-pub struct Raster {
+pub(crate) struct Raster {
     pub eye: DVec3,
     frame: [DVec3; 3],
     pub side: usize,
@@ -19,14 +19,14 @@ pub struct Raster {
 
 /// First hit of each ray: its depth (infinite without) and whose triangle it was.
 #[derive(Clone)]
-pub struct Hits {
+pub(crate) struct Hits {
     pub depth: Vec<f64>,
     pub owner: Vec<u32>,
 }
 
 impl Raster {
     /// `side` x `side` rays over everything of a mesh; none lies on its outermost points.
-    pub fn over(eye: DVec3, look_at: DVec3, mesh: &TriMesh, side: usize) -> Self {
+    pub(crate) fn over(eye: DVec3, look_at: DVec3, mesh: &TriMesh, side: usize) -> Self {
         let forward = (look_at - eye).normalize();
         let right = forward.cross(DVec3::Z).normalize();
         let mut raster = Self {
@@ -54,7 +54,7 @@ impl Raster {
         DVec3::from_array(self.frame.map(|axis| axis.dot(d)))
     }
 
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.side * self.side
     }
 
@@ -63,19 +63,19 @@ impl Raster {
         self.corner + (at + DVec2::new(0.5, 0.5)) * self.step
     }
 
-    pub fn direction(&self, ray: usize) -> DVec3 {
+    pub(crate) fn direction(&self, ray: usize) -> DVec3 {
         let q = self.image(ray);
         let [right, up, forward] = self.frame;
         q.x * right + q.y * up + forward
     }
 
     /// Solid angle a ray stands for, steradians.
-    pub fn weight(&self, ray: usize) -> f64 {
+    pub(crate) fn weight(&self, ray: usize) -> f64 {
         self.step.x * self.step.y * (1.0 + self.image(ray).length_squared()).powf(-1.5)
     }
 
     /// First hits with some meshes, each with an owner.
-    pub fn cast<'a>(&self, meshes: impl IntoIterator<Item = (u32, &'a TriMesh)>) -> Hits {
+    pub(crate) fn cast<'a>(&self, meshes: impl IntoIterator<Item = (u32, &'a TriMesh)>) -> Hits {
         let mut hits = self.nothing();
         for (owner, mesh) in meshes {
             for face in FaceId::all(mesh.faces.len()) {
@@ -86,7 +86,7 @@ impl Raster {
     }
 
     /// First hits with the faces of a mesh, each its own owner.
-    pub fn cast_faces(&self, mesh: &TriMesh) -> Hits {
+    pub(crate) fn cast_faces(&self, mesh: &TriMesh) -> Hits {
         let mut hits = self.nothing();
         for face in FaceId::all(mesh.faces.len()) {
             self.draw_face(mesh, face, face.0, &mut hits);
@@ -95,7 +95,7 @@ impl Raster {
     }
 
     /// Depth at which a ray meets the plane of a face.
-    pub fn plane_depth(&self, mesh: &TriMesh, face: u32, ray: usize) -> f64 {
+    pub(crate) fn plane_depth(&self, mesh: &TriMesh, face: u32, ray: usize) -> f64 {
         let [a, b, c] = mesh.corners(FaceId(face));
         let normal = (b - a).cross(c - a);
         normal.dot(a - self.eye) / normal.dot(self.direction(ray))
@@ -167,7 +167,7 @@ fn cut(corners: &[DVec3; 3]) -> Vec<DVec3> {
 
 /// Depths a layer allows on a ray, from the language's own words: a slab about the upright plane through the axis that faces
 /// the eye, or the surface scaled about the eye. `None` for what carries nothing.
-pub fn allowed(
+pub(crate) fn allowed(
     support: &Support,
     eye: DVec3,
     direction: DVec3,

@@ -9,7 +9,7 @@ use tiny_skia::{Pixmap, PremultipliedColorU8};
 const TOLERANCE: u8 = 12;
 
 /// Compares a PNG with the golden one; fails if more than one pixel in 2000 differs.
-pub fn picture(name: &str, png: &[u8]) {
+pub(crate) fn picture(name: &str, png: &[u8]) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/golden")
         .join(name);
@@ -67,7 +67,7 @@ fn three_panels(expected: &Pixmap, found: &Pixmap) -> Pixmap {
 }
 
 /// Compares figures of a scene with the golden ones: same keys and texts, numbers within [`tolerance`].
-pub fn figures(name: &str, found: &Value) {
+pub(crate) fn figures(name: &str, found: &Value) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/golden")
         .join(name);

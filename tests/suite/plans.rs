@@ -17,14 +17,14 @@ use std::sync::LazyLock;
 
 /// A plan as the planner hands it over.
 #[derive(Clone)]
-pub struct Case {
+pub(crate) struct Case {
     pub views: Vec<View>,
     pub brief: Brief,
     pub planned: Planned,
 }
 
 /// The layout of the four creatures as the end of a search that began with it shaken.
-pub fn creatures() -> Case {
+pub(crate) fn creatures() -> Case {
     static MADE: LazyLock<Case> = LazyLock::new(make_creatures);
     MADE.clone()
 }
@@ -165,7 +165,7 @@ fn frame(subjects: &[Subject], brief: &Brief, pillars: Vec<Pillar>, tries: u64) 
 }
 
 /// Tells, in place of a frame's faults, wherever an eye meets none of its own pillars.
-pub fn tell(views: &[View]) -> impl Fn(&Frame) -> Vec<(DVec2, String)> {
+pub(crate) fn tell(views: &[View]) -> impl Fn(&Frame) -> Vec<(DVec2, String)> {
     let subjects = subjects_of(views);
     move |frame| {
         let mut marks = Vec::new();
@@ -220,7 +220,7 @@ fn wedges(views: &[View]) -> Vec<Vec<DVec2>> {
 }
 
 /// Every view's pillars at random in its wedge of the disc; the search ends where it began.
-pub fn crowd(views: usize, each: usize, name: &str) -> Case {
+pub(crate) fn crowd(views: usize, each: usize, name: &str) -> Case {
     let radius = 72.0;
     let list: Vec<View> = (0..views)
         .map(|v| {
@@ -304,7 +304,7 @@ fn case(views: Vec<View>, brief: Brief, pillars: Vec<Pillar>, steps: u32) -> Cas
 }
 
 /// A hand-made layout of square and round pillars in an angular region, mended: one pillar moved, one taken away, one put up.
-pub fn mended() -> Case {
+pub(crate) fn mended() -> Case {
     let ball = |x: f64| shapes::ball(DVec3::new(x, 0.0, 30.0), 14.0, 10);
     let mut far = shapes::view(
         "<far> & \"near\"",
@@ -385,7 +385,7 @@ pub fn mended() -> Case {
 }
 
 /// Nothing at all.
-pub fn nothing() -> Case {
+pub(crate) fn nothing() -> Case {
     let mut case = case(Vec::new(), brief(Vec::new(), Vec::new(), 0), Vec::new(), 0);
     case.planned.frames.clear();
     case

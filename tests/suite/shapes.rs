@@ -17,15 +17,15 @@ use pillarforest::view::{PlacedModel, View};
 use pillarforest::viewmap::{Image, SupportField, Target, ViewMap};
 use std::f64::consts::TAU;
 
-pub const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
-pub const BLUE: [u8; 3] = [0x56, 0xB4, 0xE9];
-pub const GREEN: [u8; 3] = [0x00, 0x9E, 0x73];
+pub(crate) const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
+pub(crate) const BLUE: [u8; 3] = [0x56, 0xB4, 0xE9];
+pub(crate) const GREEN: [u8; 3] = [0x00, 0x9E, 0x73];
 
-pub const EYE: DVec3 = DVec3::new(0.0, -150.0, 20.0);
-pub const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 20.0);
+pub(crate) const EYE: DVec3 = DVec3::new(0.0, -150.0, 20.0);
+pub(crate) const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 20.0);
 
 /// Faces of a box whose corner `k` lies at the bits of `k`: x, y, z.
-pub const CUBE_FACES: [[u32; 3]; 12] = [
+pub(crate) const CUBE_FACES: [[u32; 3]; 12] = [
     [0, 2, 3],
     [0, 3, 1],
     [4, 5, 7],
@@ -41,14 +41,14 @@ pub const CUBE_FACES: [[u32; 3]; 12] = [
 ];
 
 /// Corners of a regular polygon, counter-clockwise.
-pub fn ring(centre: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
+pub(crate) fn ring(centre: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
     (0..corners)
         .map(|k| centre + radius * DVec2::from_angle(TAU * k as f64 / corners as f64))
         .collect()
 }
 
 /// An upright prism over a convex counter-clockwise outline.
-pub fn prism(outline: &[DVec2], bottom: f64, top: f64) -> TriMesh {
+pub(crate) fn prism(outline: &[DVec2], bottom: f64, top: f64) -> TriMesh {
     let n = outline.len() as u32;
     let vertices = [bottom, top]
         .iter()
@@ -64,7 +64,7 @@ pub fn prism(outline: &[DVec2], bottom: f64, top: f64) -> TriMesh {
 }
 
 /// A ball of facets.
-pub fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
+pub(crate) fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
     let (n, m) = (2 * rows, rows);
     let mut mesh = TriMesh::default();
     mesh.vertices.push(centre - radius * DVec3::Z);
@@ -91,7 +91,7 @@ pub fn ball(centre: DVec3, radius: f64, rows: u32) -> TriMesh {
 }
 
 /// As far behind a datum as a layer with it reaches.
-pub fn extent(datum: Datum, back: f64) -> Extent {
+pub(crate) fn extent(datum: Datum, back: f64) -> Extent {
     match datum {
         Datum::Plane => Extent::Plane { back },
         Datum::Surface => Extent::Surface { back },
@@ -99,7 +99,7 @@ pub fn extent(datum: Datum, back: f64) -> Extent {
 }
 
 /// A layer about a plane.
-pub fn flat_layer(front: f64, back: f64, core: f64) -> Layer {
+pub(crate) fn flat_layer(front: f64, back: f64, core: f64) -> Layer {
     Layer {
         extent: Extent::Plane { back },
         front,
@@ -108,7 +108,7 @@ pub fn flat_layer(front: f64, back: f64, core: f64) -> Layer {
     }
 }
 
-pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support {
+pub(crate) fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support {
     let profile = ring(axis, radius, corners);
     Support {
         name: format!("pillar at {axis}"),
@@ -127,7 +127,7 @@ pub fn pillar(axis: DVec2, radius: f64, corners: usize, datum: Datum) -> Support
     }
 }
 
-pub fn base(outline: Vec<DVec2>) -> Support {
+pub(crate) fn base(outline: Vec<DVec2>) -> Support {
     Support {
         name: "base".into(),
         mesh: prism(&outline, -3.0, 0.0),
@@ -140,7 +140,7 @@ pub fn base(outline: Vec<DVec2>) -> Support {
     }
 }
 
-pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
+pub(crate) fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
     let (lo, hi) = model.bounds().unwrap();
     let model = PlacedModel {
         name: name.into(),
@@ -161,7 +161,7 @@ pub fn view(name: &str, eye: DVec3, model: TriMesh, colour: [u8; 3]) -> View {
 }
 
 /// Three eyes, one of them far away, and pillars of all kinds.
-pub fn grove() -> (Vec<View>, Vec<Support>) {
+pub(crate) fn grove() -> (Vec<View>, Vec<Support>) {
     let views = vec![
         view(
             "owl",
@@ -206,7 +206,7 @@ pub fn grove() -> (Vec<View>, Vec<Support>) {
 }
 
 /// What one eye is to see on which pillars.
-pub struct Setting {
+pub(crate) struct Setting {
     pub eye: DVec3,
     pub look_at: DVec3,
     pub model: TriMesh,
@@ -214,7 +214,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    pub fn new(model: TriMesh, supports: Vec<Support>) -> Self {
+    pub(crate) fn new(model: TriMesh, supports: Vec<Support>) -> Self {
         Self {
             eye: EYE,
             look_at: MIDDLE,
@@ -224,20 +224,20 @@ impl Setting {
     }
 
     /// A bumpy ball on three pillars at different depths, in a layer much thinner than it.
-    pub fn tight() -> Self {
+    pub(crate) fn tight() -> Self {
         let places = [(-8.5, 4.0), (0.0, -6.0), (8.5, 10.0)];
         let supports = places.map(|(x, y)| pillar(DVec2::new(x, y), 4.6, 48, Datum::Plane));
         Self::new(bumpy(12.0), supports.to_vec())
     }
 
     /// The same ball inside one huge pillar whose layer takes all of it at any scale from a third to four thirds.
-    pub fn roomy() -> Self {
+    pub(crate) fn roomy() -> Self {
         let mut support = pillar(DVec2::ZERO, 60.0, 96, Datum::Plane);
         support.layer = Some(flat_layer(110.0, 55.0, 1.0));
         Self::new(bumpy(12.0), vec![support])
     }
 
-    pub fn view(&self) -> View {
+    pub(crate) fn view(&self) -> View {
         View {
             look_at: self.look_at,
             ..view("test", self.eye, self.model.clone(), ORANGE)
@@ -245,16 +245,16 @@ impl Setting {
     }
 
     /// The view map with its target.
-    pub fn seen(&self) -> Image<'static> {
+    pub(crate) fn seen(&self) -> Image<'static> {
         Image::new(kept(self.view()), field(&self.supports)).expect("a map")
     }
 
-    pub fn sight(&self) -> Sight<'static> {
+    pub(crate) fn sight(&self) -> Sight<'static> {
         sighted(self.view(), field(&self.supports))
     }
 
     /// The first view of a scene.
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let view = &scene.views[0];
         Self {
             eye: view.eye,
@@ -265,7 +265,7 @@ impl Setting {
     }
 
     /// All stages up to the relief.
-    pub fn solved(&self, energy: Energy) -> Outcome {
+    pub(crate) fn solved(&self, energy: Energy) -> Outcome {
         solved(self.sight(), energy)
     }
 }
@@ -276,18 +276,18 @@ fn kept<T>(value: T) -> &'static T {
 }
 
 /// Supports as a target for rays, for the rest of the run.
-pub fn field(supports: &[Support]) -> &'static SupportField<'static> {
+pub(crate) fn field(supports: &[Support]) -> &'static SupportField<'static> {
     kept(SupportField::new(kept(supports.to_vec())))
 }
 
 /// What an eye sees on supports.
-pub fn sighted(view: View, field: &'static SupportField<'static>) -> Sight<'static> {
+pub(crate) fn sighted(view: View, field: &'static SupportField<'static>) -> Sight<'static> {
     let sight = Sight::new(kept(view), field);
     sight.unwrap_or_else(|e| panic!("nothing to see: {e:?}"))
 }
 
 /// What the stages from a sight to the relief make of it, the surface in one piece.
-pub fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
+pub(crate) fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
     let depths = kinds::height_field_depths(energy, &sight).expect("depths");
     Outcome {
         relief: relief(&sight, &depths),
@@ -297,7 +297,7 @@ pub fn solved(sight: Sight<'static>, energy: Energy) -> Outcome {
 }
 
 /// The text of an OBJ file.
-pub fn obj(mesh: &TriMesh) -> Vec<u8> {
+pub(crate) fn obj(mesh: &TriMesh) -> Vec<u8> {
     let vertices = mesh.vertices.iter();
     let vertices = vertices.map(|v| format!("v {:?} {:?} {:?}\n", v.x, v.y, v.z));
     let face = |f: &[VertexId; 3]| format!("f {} {} {}\n", f[0].0 + 1, f[1].0 + 1, f[2].0 + 1);
@@ -306,33 +306,33 @@ pub fn obj(mesh: &TriMesh) -> Vec<u8> {
 }
 
 /// All that the stages up to the relief make of a setting.
-pub struct Outcome {
+pub(crate) struct Outcome {
     pub sight: Sight<'static>,
     pub depths: Depths,
     pub relief: Relief,
 }
 
 impl Outcome {
-    pub fn target(&self) -> &Target {
+    pub(crate) fn target(&self) -> &Target {
         &self.sight.image.target
     }
 
-    pub fn map(&self) -> &ViewMap {
+    pub(crate) fn map(&self) -> &ViewMap {
         &self.sight.image.map
     }
 
-    pub fn groups(&self) -> &Groups {
+    pub(crate) fn groups(&self) -> &Groups {
         &self.sight.groups
     }
 }
 
 /// A closed ball with waves on it, finer than the pillars and coarser than its faces.
-pub fn bumpy(radius: f64) -> TriMesh {
+pub(crate) fn bumpy(radius: f64) -> TriMesh {
     wavy(radius, 0.06)
 }
 
 /// A closed ball with waves of a share of its radius.
-pub fn wavy(radius: f64, share: f64) -> TriMesh {
+pub(crate) fn wavy(radius: f64, share: f64) -> TriMesh {
     let mut mesh = ball(MIDDLE, radius, 16);
     for v in &mut mesh.vertices {
         let d = *v - MIDDLE;
@@ -343,7 +343,7 @@ pub fn wavy(radius: f64, share: f64) -> TriMesh {
 }
 
 /// What the boolean library makes of boxes given by two corners: their union.
-pub fn boxes(corners: &[(DVec3, DVec3)]) -> TriMesh {
+pub(crate) fn boxes(corners: &[(DVec3, DVec3)]) -> TriMesh {
     let cube = |(lo, hi): &(DVec3, DVec3)| {
         let vec = |v: DVec3| Vec3::new(v.x, v.y, v.z);
         Manifold::cube(vec(*hi - *lo), false).translate(vec(*lo))
@@ -359,7 +359,7 @@ pub fn boxes(corners: &[(DVec3, DVec3)]) -> TriMesh {
 }
 
 /// A mesh for the boolean library.
-pub fn manifold(mesh: &TriMesh) -> Manifold {
+pub(crate) fn manifold(mesh: &TriMesh) -> Manifold {
     let solid = Manifold::from_mesh_gl64(&MeshGL64 {
         num_prop: 3,
         vert_properties: mesh.vertices.iter().flat_map(DVec3::to_array).collect(),

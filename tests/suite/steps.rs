@@ -15,7 +15,7 @@ const NORMAL: NormalOptions = NormalOptions {
     ordering: true,
     reweight: 0,
 };
-pub const STEPS: StepOptions = StepOptions {
+pub(crate) const STEPS: StepOptions = StepOptions {
     limits: StepLimits {
         least_mm: 0.1,
         highest_mm: None,

@@ -5,7 +5,7 @@ use crate::field::{Field, gradient, scramble, settle, step, v};
 use glam::DVec3;
 
 /// One tile: rooted at `root`, growing along the unit tangent `along`, `side` across it, `out` away from the surface.
-pub struct Tile {
+pub(crate) struct Tile {
     pub root: DVec3,
     along: DVec3,
     side: DVec3,
@@ -20,7 +20,7 @@ pub struct Tile {
 
 impl Tile {
     /// Tile on the surface of `base` at `root`, growing along `flow` (any vector; its tangential part counts).
-    pub fn on(base: &Field, root: DVec3, flow: DVec3, size: [f64; 3]) -> Tile {
+    pub(crate) fn on(base: &Field, root: DVec3, flow: DVec3, size: [f64; 3]) -> Tile {
         let out = gradient(base, root).normalize_or(DVec3::Z);
         let along = (flow - out * flow.dot(out)).normalize_or(out.any_orthonormal_vector());
         let [length, half, lift] = size;
@@ -44,7 +44,7 @@ impl Tile {
 
 /// Outline and relief of the tiles of one coat.
 #[derive(Clone, Copy)]
-pub struct Shape {
+pub(crate) struct Shape {
     /// Where the tip begins to round, share of the length: 0.3 gives a leaf, 0.7 a rounded bar.
     pub shoulder: f64,
     /// Exponent of the outline at the tip: 2 round, towards 1 pointed.
@@ -58,7 +58,7 @@ pub struct Shape {
 }
 
 /// Tiles in a grid of cubic cells, so that a query looks at its own cell only.
-pub struct Coat {
+pub(crate) struct Coat {
     tiles: Vec<Tile>,
     shape: Shape,
     cells: Cells,
@@ -66,7 +66,7 @@ pub struct Coat {
 
 impl Coat {
     /// Coat of `tiles`, all of one `shape`.
-    pub fn new(tiles: Vec<Tile>, shape: Shape) -> Coat {
+    pub(crate) fn new(tiles: Vec<Tile>, shape: Shape) -> Coat {
         let balls: Vec<(DVec3, f64)> = tiles
             .iter()
             .map(|t| (t.root + t.along * (0.4 * t.length), 0.7 * t.length + t.half))
@@ -79,7 +79,7 @@ impl Coat {
     }
 
     /// Height of the coat at `p`, mm; 0 where no tile reaches.
-    pub fn height(&self, p: DVec3) -> f64 {
+    pub(crate) fn height(&self, p: DVec3) -> f64 {
         let mut top: f64 = 0.0;
         for &i in self.cells.at(p) {
             let h = self.tile_height(&self.tiles[i as usize], p);
@@ -118,14 +118,14 @@ impl Coat {
 }
 
 /// Cells around seeds: the relief depends on the distance to the border between neighbouring seeds.
-pub struct Mosaic {
+pub(crate) struct Mosaic {
     seeds: Vec<DVec3>,
     cells: Cells,
 }
 
 impl Mosaic {
     /// Mosaic of `seeds`; a query sees those within `reach` mm.
-    pub fn new(seeds: Vec<DVec3>, reach: f64) -> Mosaic {
+    pub(crate) fn new(seeds: Vec<DVec3>, reach: f64) -> Mosaic {
         let balls: Vec<(DVec3, f64)> = seeds.iter().map(|&s| (s, reach)).collect();
         Mosaic {
             cells: Cells::new(&balls, 3.0),
@@ -134,7 +134,7 @@ impl Mosaic {
     }
 
     /// Distance from `p` to the border of its cell, mm, with corners rounded over `soft` mm, and the cell's seed.
-    pub fn border(&self, p: DVec3, soft: f64) -> Option<(f64, usize)> {
+    pub(crate) fn border(&self, p: DVec3, soft: f64) -> Option<(f64, usize)> {
         let near = self.cells.at(p);
         let nearest = *near.iter().min_by(|&&a, &&b| {
             let d = |i: u32| self.seeds[i as usize].distance_squared(p);
@@ -151,7 +151,7 @@ impl Mosaic {
     }
 
     /// Pebbled skin: every cell bulges by `height` mm, with grooves `groove` mm wide on each side of a border.
-    pub fn pebbles(&self, p: DVec3, height: f64, groove: f64) -> f64 {
+    pub(crate) fn pebbles(&self, p: DVec3, height: f64, groove: f64) -> f64 {
         self.border(p, 0.3)
             .map_or(0.0, |(d, _)| height * step(-0.15, groove, d))
     }
@@ -225,7 +225,7 @@ impl Cells {
 
 /// Points scattered evenly over the surface of `base` inside the box `low..high`; `gap` gives the distance to keep from
 /// other points in mm, or `None` where no point is wanted.
-pub fn scatter(
+pub(crate) fn scatter(
     base: &Field,
     low: DVec3,
     high: DVec3,

@@ -21,7 +21,7 @@ const PATCHES: [(f64, f64, f64, f64); 4] = [
 ];
 
 /// The cow, about 55 mm tall.
-pub fn cow() -> Creature {
+pub(crate) fn cow() -> Creature {
     let field = |p: DVec3| {
         let t = turn(-TURN) * p;
         let m = mirror_y(t);

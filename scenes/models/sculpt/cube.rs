@@ -10,7 +10,7 @@ const SQUARES: i32 = 16;
 const WIDTH: f64 = 40.0;
 
 /// The cube, 6 · 16² + 2 vertices and twice as many squares' halves; all squares of a side have the same diagonal.
-pub fn cube() -> Mesh {
+pub(crate) fn cube() -> Mesh {
     let mut numbers = BTreeMap::new();
     let mut mesh = Mesh {
         points: Vec::new(),

@@ -29,7 +29,7 @@ const SCALE: Shape = Shape {
 };
 
 /// The dragon's head, about 85 mm tall.
-pub fn dragon() -> Creature {
+pub(crate) fn dragon() -> Creature {
     let scales = scales();
     let field = move |p: DVec3| {
         let t = turn(-TURN) * p;

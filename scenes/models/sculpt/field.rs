@@ -6,35 +6,35 @@
 use glam::{DMat3, DVec2, DVec3};
 
 /// A field that can be evaluated from several threads.
-pub type Field = dyn Fn(DVec3) -> f64 + Sync + Send;
+pub(crate) type Field = dyn Fn(DVec3) -> f64 + Sync + Send;
 
 /// Shorthand for a vector from three coordinates in millimetres.
-pub const fn v(x: f64, y: f64, z: f64) -> DVec3 {
+pub(crate) const fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
 /// The point with its x coordinate mirrored to the positive side: one description serves left and right.
-pub fn mirror_x(p: DVec3) -> DVec3 {
+pub(crate) fn mirror_x(p: DVec3) -> DVec3 {
     v(p.x.abs(), p.y, p.z)
 }
 
 /// The point with its y coordinate mirrored to the positive side.
-pub fn mirror_y(p: DVec3) -> DVec3 {
+pub(crate) fn mirror_y(p: DVec3) -> DVec3 {
     v(p.x, p.y.abs(), p.z)
 }
 
 /// Rotation about z by `degrees`, counter-clockwise from above.
-pub fn turn(degrees: f64) -> DMat3 {
+pub(crate) fn turn(degrees: f64) -> DMat3 {
     DMat3::from_rotation_z(degrees.to_radians())
 }
 
 /// Ball of radius `r` about `c`.
-pub fn ball(p: DVec3, c: DVec3, r: f64) -> f64 {
+pub(crate) fn ball(p: DVec3, c: DVec3, r: f64) -> f64 {
     p.distance(c) - r
 }
 
 /// Ellipsoid with semi-axes `r` about `c`; first-order distance.
-pub fn ellipsoid(p: DVec3, c: DVec3, r: DVec3) -> f64 {
+pub(crate) fn ellipsoid(p: DVec3, c: DVec3, r: DVec3) -> f64 {
     let q = p - c;
     let outer = (q / r).length();
     let slope = (q / (r * r)).length();
@@ -45,19 +45,19 @@ pub fn ellipsoid(p: DVec3, c: DVec3, r: DVec3) -> f64 {
 }
 
 /// Ellipsoid whose axes are the columns of `axes`.
-pub fn turned_ellipsoid(p: DVec3, c: DVec3, axes: DMat3, r: DVec3) -> f64 {
+pub(crate) fn turned_ellipsoid(p: DVec3, c: DVec3, axes: DMat3, r: DVec3) -> f64 {
     ellipsoid(axes.transpose() * (p - c), DVec3::ZERO, r)
 }
 
 /// Right-handed axes whose x column points along `x` and whose z column leans towards `up`.
-pub fn axes(x: DVec3, up: DVec3) -> DMat3 {
+pub(crate) fn axes(x: DVec3, up: DVec3) -> DMat3 {
     let x = x.normalize();
     let y = up.cross(x).normalize();
     DMat3::from_cols(x, y, x.cross(y))
 }
 
 /// Cone from `a` to `b` with round ends of radii `ra` and `rb` (hull of two balls), exact.
-pub fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
+pub(crate) fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
     let axis = b - a;
     let length = axis.length();
     let taper = (ra - rb) / length;
@@ -83,7 +83,7 @@ pub fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
 }
 
 /// Chain of cones through `(point, radius)` knots, blended over `k` at the joints.
-pub fn tube(p: DVec3, knots: &[(DVec3, f64)], k: f64) -> f64 {
+pub(crate) fn tube(p: DVec3, knots: &[(DVec3, f64)], k: f64) -> f64 {
     let mut d = f64::INFINITY;
     for pair in knots.windows(2) {
         d = join(d, cone(p, pair[0].0, pair[1].0, pair[0].1, pair[1].1), k);
@@ -92,7 +92,7 @@ pub fn tube(p: DVec3, knots: &[(DVec3, f64)], k: f64) -> f64 {
 }
 
 /// Ring of radius `big` and thickness `small` about `c` in the plane perpendicular to the unit vector `n`.
-pub fn ring(p: DVec3, c: DVec3, n: DVec3, big: f64, small: f64) -> f64 {
+pub(crate) fn ring(p: DVec3, c: DVec3, n: DVec3, big: f64, small: f64) -> f64 {
     let q = p - c;
     let height = q.dot(n);
     let radial = (q - n * height).length() - big;
@@ -100,7 +100,7 @@ pub fn ring(p: DVec3, c: DVec3, n: DVec3, big: f64, small: f64) -> f64 {
 }
 
 /// Smooth union: as `min` where the fields differ by more than `k`, rounded in between.
-pub fn join(a: f64, b: f64, k: f64) -> f64 {
+pub(crate) fn join(a: f64, b: f64, k: f64) -> f64 {
     if !a.is_finite() {
         return b;
     }
@@ -109,28 +109,28 @@ pub fn join(a: f64, b: f64, k: f64) -> f64 {
 }
 
 /// Smooth intersection, the counterpart of [`join`].
-pub fn meet(a: f64, b: f64, k: f64) -> f64 {
+pub(crate) fn meet(a: f64, b: f64, k: f64) -> f64 {
     -join(-a, -b, k)
 }
 
 /// Smooth difference: `a` without `b`.
-pub fn carve(a: f64, b: f64, k: f64) -> f64 {
+pub(crate) fn carve(a: f64, b: f64, k: f64) -> f64 {
     meet(a, -b, k)
 }
 
 /// Hermite step from 0 at `lo` to 1 at `hi` (`lo > hi` steps down).
-pub fn step(lo: f64, hi: f64, x: f64) -> f64 {
+pub(crate) fn step(lo: f64, hi: f64, x: f64) -> f64 {
     let t = ((x - lo) / (hi - lo)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
 /// Bell of height 1 about `c` with standard width `w`.
-pub fn bell(x: f64, c: f64, w: f64) -> f64 {
+pub(crate) fn bell(x: f64, c: f64, w: f64) -> f64 {
     (-((x - c) / w).powi(2)).exp()
 }
 
 /// Smooth value noise in -1..1 with features about one unit wide.
-pub fn noise(p: DVec3) -> f64 {
+pub(crate) fn noise(p: DVec3) -> f64 {
     let cell = p.floor();
     let t = p - cell;
     let t = t * t * (3.0 - 2.0 * t);
@@ -145,7 +145,7 @@ pub fn noise(p: DVec3) -> f64 {
 }
 
 /// Fixed pseudo-random number in 0..1 for an integer cell.
-pub fn scramble(i: i64, j: i64, k: i64) -> f64 {
+pub(crate) fn scramble(i: i64, j: i64, k: i64) -> f64 {
     let mut h = (i as u64)
         .wrapping_mul(0x9e37_79b9_7f4a_7c15)
         .wrapping_add((j as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f))
@@ -156,7 +156,7 @@ pub fn scramble(i: i64, j: i64, k: i64) -> f64 {
 }
 
 /// Exact signed distance to a closed polygon in the plane.
-pub fn polygon(p: DVec2, corners: &[DVec2]) -> f64 {
+pub(crate) fn polygon(p: DVec2, corners: &[DVec2]) -> f64 {
     let mut best = f64::INFINITY;
     let mut inside = false;
     let mut prev = corners[corners.len() - 1];
@@ -175,7 +175,7 @@ pub fn polygon(p: DVec2, corners: &[DVec2]) -> f64 {
 }
 
 /// Value at `x` of the smooth curve through `(x, y)` knots with ascending x (monotone-safe Hermite, clamped ends).
-pub fn curve(x: f64, knots: &[(f64, f64)]) -> f64 {
+pub(crate) fn curve(x: f64, knots: &[(f64, f64)]) -> f64 {
     let last = knots.len() - 1;
     if x <= knots[0].0 {
         return knots[0].1;
@@ -203,7 +203,7 @@ pub fn curve(x: f64, knots: &[(f64, f64)]) -> f64 {
 }
 
 /// Gradient by four samples at the corners of a small tetrahedron.
-pub fn gradient(f: &Field, p: DVec3) -> DVec3 {
+pub(crate) fn gradient(f: &Field, p: DVec3) -> DVec3 {
     // 0.02 mm: below every relief detail, far above the rounding of coordinates of 100 mm.
     const H: f64 = 0.02;
     let corners = [
@@ -217,7 +217,7 @@ pub fn gradient(f: &Field, p: DVec3) -> DVec3 {
 }
 
 /// Moves `p` onto the surface by Newton steps of at most `stride` mm each along the gradient.
-pub fn settle(f: &Field, mut p: DVec3, steps: usize, stride: f64) -> DVec3 {
+pub(crate) fn settle(f: &Field, mut p: DVec3, steps: usize, stride: f64) -> DVec3 {
     for _ in 0..steps {
         let g = gradient(f, p);
         let g2 = g.length_squared();
@@ -230,7 +230,7 @@ pub fn settle(f: &Field, mut p: DVec3, steps: usize, stride: f64) -> DVec3 {
 }
 
 /// First point of the surface on the ray from `from` along the unit vector `dir`, within 200 mm.
-pub fn march(f: &Field, from: DVec3, dir: DVec3) -> Option<DVec3> {
+pub(crate) fn march(f: &Field, from: DVec3, dir: DVec3) -> Option<DVec3> {
     let mut t = 0.0;
     while t < 200.0 {
         let d = f(from + dir * t);

@@ -49,7 +49,7 @@ const SCALE: Shape = Shape {
 };
 
 /// The fish, about 80 mm long, nose towards +x.
-pub fn fish() -> Creature {
+pub(crate) fn fish() -> Creature {
     let scales = scales();
     let field = move |p: DVec3| {
         let q = straighten(p);

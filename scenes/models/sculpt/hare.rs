@@ -17,7 +17,7 @@ const LOCK: Shape = Shape {
 };
 
 /// The hare, about 78 mm tall.
-pub fn hare() -> Creature {
+pub(crate) fn hare() -> Creature {
     let fur = fur();
     let field = move |p: DVec3| {
         let t = turn(-TURN) * p;

@@ -16,7 +16,7 @@ const COMB_FROM: DVec3 = v(0.0, -34.0, 46.0);
 const COMB_TO: DVec3 = v(0.0, 34.0, 26.0);
 
 /// The head, about 87 mm tall, facing -y.
-pub fn head() -> Creature {
+pub(crate) fn head() -> Creature {
     let field = |p: DVec3| {
         let m = mirror_x(p);
         let mut d = join(flesh(p, m), lids(m), 0.7);

@@ -18,7 +18,7 @@ const ELBOW: DVec3 = v(24.5, -8.0, 40.0);
 const WRIST: DVec3 = v(29.5, -20.0, 55.0);
 
 /// The imp, about 75 mm tall, facing -y.
-pub fn imp() -> Creature {
+pub(crate) fn imp() -> Creature {
     let warts = warts();
     let field = move |p: DVec3| {
         let m = mirror_x(p);

@@ -29,13 +29,13 @@ const PLAIN: f64 = 0.6;
 const DEAD: [u32; 3] = [u32::MAX; 3];
 
 /// Triangle mesh: positions in mm, faces counter-clockwise from outside.
-pub struct Mesh {
+pub(crate) struct Mesh {
     pub points: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
 }
 
 /// What is to be meshed.
-pub struct Creature {
+pub(crate) struct Creature {
     /// The finished surface.
     pub field: Box<Field>,
     /// A box around it, mm.
@@ -46,7 +46,7 @@ pub struct Creature {
 }
 
 /// Meshes a creature; `pitch` is the spacing of the first grid in mm.
-pub fn sculpt(creature: &Creature, pitch: f64) -> Result<Mesh, String> {
+pub(crate) fn sculpt(creature: &Creature, pitch: f64) -> Result<Mesh, String> {
     let field = &*creature.field;
     let first = polygonise(creature, pitch)?;
     let mut editor = Editor::new(largest_part(first));

@@ -31,7 +31,7 @@ const VANE: Shape = Shape {
 };
 
 /// The owl, about 76 mm tall, facing -y.
-pub fn owl() -> Creature {
+pub(crate) fn owl() -> Creature {
     let body_coat = body_feathers();
     let head_coat = head_feathers();
     let wing_coat = wing_feathers();

@@ -10,7 +10,7 @@ const TURN: f64 = -33.0;
 const EYE: DVec3 = v(41.2, 5.0, 24.4);
 
 /// The turtle, about 80 mm long.
-pub fn turtle() -> Creature {
+pub(crate) fn turtle() -> Creature {
     let scutes = scutes();
     let skin = skin_cells();
     let field = move |p: DVec3| {

@@ -19,7 +19,7 @@ fn radius(z: f64) -> f64 {
 }
 
 /// Outside up, inside down, as one ring after the other between two points on the axis.
-pub fn vase() -> Mesh {
+pub(crate) fn vase() -> Mesh {
     let share = |k: u32| f64::from(k) / f64::from(ROWS);
     let outside = (0..=ROWS)
         .map(|k| HEIGHT * share(k))

@@ -5,7 +5,7 @@ use crate::certify::point::without_minus_zero;
 use glam::DVec3;
 
 /// The body that fits the bed worst: its size along the tightest direction.
-pub fn bed(printed: &Printed, limits: &PrintLimits) -> PrintCheck {
+pub(crate) fn bed(printed: &Printed, limits: &PrintLimits) -> PrintCheck {
     let (lo, hi) = printed.whole.bounds();
     let forest = [(String::new(), hi - lo)];
     let bodies = if printed.bodies.is_empty() {

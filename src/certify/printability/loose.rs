@@ -8,7 +8,7 @@ use crate::mesh::{Solid, TriMesh, face_components};
 use glam::DVec3;
 
 /// What would come off, and what is enclosed.
-pub fn loose(whole: &Solid) -> [PrintCheck; 2] {
+pub(crate) fn loose(whole: &Solid) -> [PrintCheck; 2] {
     let mesh = whole.mesh();
     let (mut parts, mut cavities) = (Vec::new(), Vec::new());
     if whole.parts() + whole.cavities() > 1 {

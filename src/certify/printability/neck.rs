@@ -20,7 +20,7 @@ const PRECISION_MM: f64 = 0.01;
 const OFF_VERTICES_MM: f64 = 0.001_234_5;
 
 /// The pillar whose thinnest section leaves least beyond its layer's core.
-pub fn core(printed: &Printed) -> Option<PrintCheck> {
+pub(crate) fn core(printed: &Printed) -> Option<PrintCheck> {
     let found: Vec<_> = printed
         .supports
         .par_iter()
@@ -55,7 +55,7 @@ pub fn core(printed: &Printed) -> Option<PrintCheck> {
 
 /// A pillar where it is thinnest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Neck {
+pub(crate) struct Neck {
     /// Middle of the widest circle.
     pub place: DVec3,
     /// Diameter of that circle, millimetres.
@@ -65,7 +65,7 @@ pub struct Neck {
 }
 
 /// The thinnest section between two heights; `None` if they lie closer than two steps.
-pub fn thinnest(mesh: &TriMesh, bottom: f64, top: f64) -> Option<Neck> {
+pub(crate) fn thinnest(mesh: &TriMesh, bottom: f64, top: f64) -> Option<Neck> {
     let count = ((top - bottom) / STEP_MM) as usize;
     let height = |k: usize| bottom + STEP_MM * (k as f64 + 0.5) + OFF_VERTICES_MM;
     let mut worst: Option<Neck> = None;

@@ -29,7 +29,7 @@ const GRID_MM: f64 = 1.0;
 const FINEST: u32 = 100;
 
 /// The ledge that reaches farthest.
-pub fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
+pub(crate) fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
     let ledges = ledges(mesh);
     let reaches: Vec<(f64, DVec3)> = ledges.par_iter().map(Ledge::reach).collect();
     let free = FREE_NOZZLES * limits.nozzle;

@@ -6,7 +6,7 @@ use crate::geom::narrowest;
 use crate::support::{Support, SupportKind};
 
 /// The pillar whose least width is the smallest share of what its height wants.
-pub fn slenderness(supports: &[Support], limits: &PrintLimits) -> Option<PrintCheck> {
+pub(crate) fn slenderness(supports: &[Support], limits: &PrintLimits) -> Option<PrintCheck> {
     let pillars = supports.iter().filter_map(|s| match &s.kind {
         SupportKind::Pillar {
             axis, profile, top, ..

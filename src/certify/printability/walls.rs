@@ -31,7 +31,7 @@ const VANISH_NOZZLES: f64 = 1.625;
 /// Smaller walls are not missed, square millimetres of one side. Where a relief ends at a pillar's outline, films of some hundredths
 /// of a millimetre are left between two cuts along an eye's rays: up to 16 mm2 on the bundled scenes. They are not printed, and as
 /// the eye sees them edge-on it loses nothing. A pillar or plate that is too thin is larger by far.
-pub const MISSED_MM2: f64 = 25.0;
+pub(crate) const MISSED_MM2: f64 = 25.0;
 /// Smaller spots where two pillars touch can be cut with a knife, square millimetres.
 const FUSED_MM2: f64 = 4.0;
 /// Samples of one wall lie within so many of their mean distances.
@@ -51,7 +51,7 @@ struct Sample {
 }
 
 /// The checks `wall` and `gap`.
-pub fn walls(
+pub(crate) fn walls(
     mesh: &TriMesh,
     bvh: &Bvh,
     supports: &[Support],

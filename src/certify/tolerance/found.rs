@@ -107,6 +107,6 @@ pub struct Tolerance {
 }
 
 /// Arc-minutes.
-pub fn arcmin(radians: f64) -> f64 {
+pub(crate) fn arcmin(radians: f64) -> f64 {
     60.0 * radians.to_degrees()
 }

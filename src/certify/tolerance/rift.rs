@@ -22,7 +22,7 @@ impl Rift {
 
 /// By how much two points in the unit direction `u` part across the plane with the unit normal `n`, if the eye moves by `e`; see
 /// the module. Radians, positive if the first is the nearer one and `n . e > 0`.
-pub fn parting(u: DVec3, n: DVec3, distances: [f64; 2], e: DVec3) -> f64 {
+pub(crate) fn parting(u: DVec3, n: DVec3, distances: [f64; 2], e: DVec3) -> f64 {
     let [a, b] = distances.map(|a| (n.dot(e) / (a * u - e).length()).clamp(-1.0, 1.0).asin());
     a - b
 }

@@ -27,7 +27,7 @@ const FARTHEST_MM: f64 = 1e6;
 
 /// How far the eye may move along `axis` and against it until the worst cut opens by `angle`, and that cut's longest side; both of an
 /// eye at infinity as from the reading distance.
-pub fn movement_until(
+pub(crate) fn movement_until(
     sides: &[CutSide],
     map: &ViewMap,
     axis: DVec3,
@@ -58,7 +58,7 @@ pub fn movement_until(
     Some((high / focal, found))
 }
 
-pub fn worst(
+pub(crate) fn worst(
     side: &CutSide,
     movement: Way,
     moved_mm: f64,
@@ -80,7 +80,7 @@ pub fn worst(
 }
 
 /// See the module; none if no cut ever opens, or if two eyes see cuts from a kilometre away.
-pub fn stereo_distance(view: &View, map: &ViewMap, sides: &[CutSide]) -> Option<f64> {
+pub(crate) fn stereo_distance(view: &View, map: &ViewMap, sides: &[CutSide]) -> Option<f64> {
     let nearest = sides
         .iter()
         .map(CutSide::nearest)
@@ -116,7 +116,7 @@ pub fn stereo_distance(view: &View, map: &ViewMap, sides: &[CutSide]) -> Option<
 }
 
 /// See the module; none if no cut ever opens.
-pub fn one_picture_from(map: &ViewMap, sides: &[CutSide]) -> Option<f64> {
+pub(crate) fn one_picture_from(map: &ViewMap, sides: &[CutSide]) -> Option<f64> {
     let plane = &map.plane;
     let far = plane.focal * READING_MM;
     // The ray of a side leans from the line of sight as its plane's normal does from the image.

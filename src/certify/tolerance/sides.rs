@@ -13,13 +13,13 @@ use glam::DVec3;
 const LEAST: f64 = 1e-9;
 
 /// The same of any eye.
-pub fn least(plane: &ImagePlane) -> f64 {
+pub(crate) fn least(plane: &ImagePlane) -> f64 {
     LEAST / (plane.focal * plane.focal)
 }
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
-pub struct CutSide {
+pub(crate) struct CutSide {
     /// Image points of its ends.
     points: [PointId; 2],
     /// Of the cells on both sides.
@@ -37,12 +37,12 @@ pub struct CutSide {
 impl CutSide {
     /// By how much more the relief parts than the model at the worse end, radians for each millimetre that an eye `back`
     /// millimetres farther away moves square to the side.
-    pub fn excess(&self, back: f64) -> f64 {
+    pub(crate) fn excess(&self, back: f64) -> f64 {
         self.beyond_the_model(|_, [a, b]| parallax(a + back, b + back))
     }
 
     /// The same for an eye that moves by `e`: radians, exactly.
-    pub fn opening(&self, e: DVec3) -> f64 {
+    pub(crate) fn opening(&self, e: DVec3) -> f64 {
         self.beyond_the_model(|end, distances| parting(end, self.normal, distances, e))
     }
 
@@ -58,13 +58,13 @@ impl CutSide {
         at(0).max(at(1))
     }
 
-    pub fn nearest(&self) -> f64 {
+    pub(crate) fn nearest(&self) -> f64 {
         let all = self.relief.iter().flatten();
         all.copied().fold(f64::INFINITY, f64::min)
     }
 
     /// In the middle of the side.
-    pub fn cut(&self) -> Rift {
+    pub(crate) fn cut(&self) -> Rift {
         let middle = (self.rays[0] + self.rays[1]) / 2.0;
         // Depths along the forward axis are harmonic along the side.
         let nearness = |k: usize, cell: usize| self.rays[k].length() / self.relief[k][cell];
@@ -84,7 +84,7 @@ impl CutSide {
 }
 
 /// All sides between two cells with reliefs that open at all, in the order of the cells.
-pub fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<CutSide> {
+pub(crate) fn sides(map: &ViewMap, target: &Target, relief: &Relief) -> Vec<CutSide> {
     let mut sides = Vec::new();
     let least = least(&map.plane);
     for c in CellId::all(map.cells.len()) {
@@ -134,7 +134,7 @@ fn side(
 
 /// Where an opening becomes more than a speck.
 #[derive(Clone, Copy, Debug)]
-pub struct Critical {
+pub(crate) struct Critical {
     /// Of opening, as `rate` gives it.
     pub rate: f64,
     /// The longest side of that rate or more in the cut.
@@ -143,7 +143,7 @@ pub struct Critical {
 
 /// The largest rate at which sides of that rate or more hang together over `extent` radians. Sides are joined at shared points
 /// (indices below `points`), steepest first, until a cut is long enough.
-pub fn critical(
+pub(crate) fn critical(
     sides: &[CutSide],
     points: usize,
     rate: impl Fn(&CutSide) -> f64,

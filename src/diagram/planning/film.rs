@@ -39,7 +39,7 @@ const BREADTH: f64 = 35.0;
 /// Starts and stops gently at every frame.
 const EASE: &str = ".6 0 .4 1";
 
-pub fn svg(story: &Story) -> String {
+pub(crate) fn svg(story: &Story) -> String {
     let frames: Vec<&Frame> = story
         .picked(FRAMES)
         .iter()

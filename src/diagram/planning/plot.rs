@@ -13,12 +13,12 @@ const AXES: [DVec2; 2] = [DVec2::new(24.0, 32.0), DVec2::new(190.0, 120.0)];
 /// Tolerances whose largest is this many times the smallest are drawn on a logarithmic axis.
 const WIDE: f64 = 6.0;
 /// An axis shows at least this share of its largest value: differences of rounding are none.
-pub const LEAST_SPAN: f64 = 0.25;
+pub(crate) const LEAST_SPAN: f64 = 0.25;
 /// The line, and what is chosen: Okabe and Ito's blue and vermilion.
 const LINE: Ink = Ink::new([0x00, 0x72, 0xB2]);
 const CHOSEN: Ink = Ink::new([0xD5, 0x5E, 0x00]);
 
-pub fn page(title: &str, brief: &Brief, planned: &Planned) -> Drawing {
+pub(crate) fn page(title: &str, brief: &Brief, planned: &Planned) -> Drawing {
     let mut drawing = Drawing::new(PAGE);
     drawing.rect(DVec2::ZERO, PAGE, Some(PAPER), None);
     let head =
@@ -110,7 +110,13 @@ impl Axes {
 }
 
 /// The plot, its axes at the edges of `area`; letters as large as `size` stand left of it and below.
-pub fn draw(drawing: &mut Drawing, area: [DVec2; 2], size: f64, brief: &Brief, planned: &Planned) {
+pub(crate) fn draw(
+    drawing: &mut Drawing,
+    area: [DVec2; 2],
+    size: f64,
+    brief: &Brief,
+    planned: &Planned,
+) {
     let finite = |t: &&Trade| t.tolerance_mm.is_finite() && t.hidden_deg.is_finite();
     let trade: Vec<Trade> = planned.trade.iter().filter(finite).copied().collect();
     let label = TextStyle::new(size, Typeface::Light, QUIET, Align::Middle);

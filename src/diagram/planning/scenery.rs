@@ -22,7 +22,7 @@ const CROSS: f64 = 1.2;
 const CORNERS: usize = 120;
 
 /// Where a map lies.
-pub struct Map<'a> {
+pub(crate) struct Map<'a> {
     pub story: &'a Story<'a>,
     pub page: Page,
     /// Chords of a round pillar's outline where a range ends on it.
@@ -30,7 +30,7 @@ pub struct Map<'a> {
 }
 
 impl<'a> Map<'a> {
-    pub fn new(story: &'a Story<'a>, room: [DVec2; 2], u: f64) -> Self {
+    pub(crate) fn new(story: &'a Story<'a>, room: [DVec2; 2], u: f64) -> Self {
         Self {
             story,
             page: Page::panel(story.circle, room, u),
@@ -38,7 +38,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    pub fn ground(&self, drawing: &mut Drawing) {
+    pub(crate) fn ground(&self, drawing: &mut Drawing) {
         let outline = self.page.outline(self.story.brief.region.outline());
         drawing.polygon(
             &outline,
@@ -48,7 +48,7 @@ impl<'a> Map<'a> {
     }
 
     /// Sight regions, as far as the map shows them.
-    pub fn regions(&self, drawing: &mut Drawing) {
+    pub(crate) fn regions(&self, drawing: &mut Drawing) {
         let page = &self.page;
         let (centre, reach) = (page.centre, page.range);
         let regions = || self.story.views.iter().zip(&self.story.planned.regions);
@@ -77,7 +77,7 @@ impl<'a> Map<'a> {
     }
 
     /// What every eye sees up to its pillars; red where it meets none, or another's.
-    pub fn ranges(&self, drawing: &mut Drawing, frame: &Frame) {
+    pub(crate) fn ranges(&self, drawing: &mut Drawing, frame: &Frame) {
         let views = self.story.views;
         let vistas: Vec<Vista> = (0..views.len()).map(|v| self.vista(frame, v)).collect();
         for (view, vista) in views.iter().zip(&vistas) {
@@ -128,14 +128,14 @@ impl<'a> Map<'a> {
         drawing.polyline(&line, Pen::new(RED, 0.9 * self.page.u));
     }
 
-    pub fn pillars(&self, drawing: &mut Drawing, pillars: &[Pillar]) {
+    pub(crate) fn pillars(&self, drawing: &mut Drawing, pillars: &[Pillar]) {
         for pillar in pillars {
             self.pillar(drawing, pillar, self.page.place(pillar.at));
         }
     }
 
     /// One pillar, its axis at a place of the page.
-    pub fn pillar(&self, drawing: &mut Drawing, pillar: &Pillar, at: DVec2) {
+    pub(crate) fn pillar(&self, drawing: &mut Drawing, pillar: &Pillar, at: DVec2) {
         let owner = self.story.owner(pillar);
         let (fill, line) = owner.map_or((FREE, QUIET), |(v, _)| {
             (pale(v.colour, 0.3), deep(v.colour, 0.35))
@@ -172,7 +172,7 @@ impl<'a> Map<'a> {
     }
 
     /// What was done to given pillars: where they stood, and the way to where they stand; a plus at new ones.
-    pub fn changes(&self, drawing: &mut Drawing) {
+    pub(crate) fn changes(&self, drawing: &mut Drawing) {
         let u = self.page.u;
         let pen = Pen::new(TEXT, 0.3 * u).dashed(0.8 * u, 0.9 * u);
         for change in &self.story.planned.changes {
@@ -204,7 +204,7 @@ impl<'a> Map<'a> {
     }
 
     /// Crosses at faults, the first `numbered` of them with their number in the list below the map.
-    pub fn marks(&self, drawing: &mut Drawing, marks: &[(DVec2, String)], numbered: usize) {
+    pub(crate) fn marks(&self, drawing: &mut Drawing, marks: &[(DVec2, String)], numbered: usize) {
         let u = self.page.u;
         for (place, text) in marks {
             sign(drawing, self.page.place(*place), CROSS * u, RED, Some(text));
@@ -217,7 +217,7 @@ impl<'a> Map<'a> {
     }
 
     /// Eyes with their names.
-    pub fn eyes(&self, drawing: &mut Drawing) {
+    pub(crate) fn eyes(&self, drawing: &mut Drawing) {
         let numbers = if self.story.numbered {
             &self.story.keys[..]
         } else {
@@ -227,7 +227,7 @@ impl<'a> Map<'a> {
     }
 
     /// Eyes with their letters, for small maps.
-    pub fn small_eyes(&self, drawing: &mut Drawing) {
+    pub(crate) fn small_eyes(&self, drawing: &mut Drawing) {
         let page = &self.page;
         for (view, key) in self.story.views.iter().zip(&self.story.keys) {
             let (stand, far) = page.stand(view.eye.truncate());
@@ -243,7 +243,7 @@ impl<'a> Map<'a> {
 }
 
 /// A diagonal cross on a pale one. `text` is what it says in the SVG.
-pub fn sign(drawing: &mut Drawing, at: DVec2, half: f64, ink: Ink, text: Option<&str>) {
+pub(crate) fn sign(drawing: &mut Drawing, at: DVec2, half: f64, ink: Ink, text: Option<&str>) {
     let arm = |x: f64, y: f64| at + half * DVec2::new(x, y);
     let steps = vec![
         Verb::Move(arm(-1.0, -1.0)),
@@ -262,7 +262,7 @@ pub fn sign(drawing: &mut Drawing, at: DVec2, half: f64, ink: Ink, text: Option<
 }
 
 /// The sign of what is new.
-pub fn plus(drawing: &mut Drawing, at: DVec2, half: f64) {
+pub(crate) fn plus(drawing: &mut Drawing, at: DVec2, half: f64) {
     for way in [DVec2::X, DVec2::Y] {
         drawing.polyline(
             &[at - half * way, at + half * way],

@@ -27,7 +27,7 @@ const KEY: f64 = 7.0;
 /// Height of the plot with its axes, at least.
 const PLOT: f64 = 44.0;
 
-pub fn draw(story: &Story) -> Drawing {
+pub(crate) fn draw(story: &Story) -> Drawing {
     let lists = [story.first(), story.last()].map(|f| story.marks(f).len().min(LISTED + 1));
     let key = MAPS[1] + LINE * lists[0].max(lists[1]) as f64 + 5.5;
     let top = key + KEY;

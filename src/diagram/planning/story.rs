@@ -6,7 +6,7 @@ use crate::view::View;
 use glam::DVec2;
 use std::borrow::Cow;
 
-pub struct Story<'a> {
+pub(crate) struct Story<'a> {
     pub title: &'a str,
     pub views: &'a [View],
     pub brief: &'a Brief,
@@ -26,7 +26,7 @@ pub struct Story<'a> {
 pub type Tell<'a> = &'a dyn Fn(&Frame) -> Vec<(DVec2, String)>;
 
 impl<'a> Story<'a> {
-    pub fn new(
+    pub(crate) fn new(
         title: &'a str,
         views: &'a [View],
         (brief, planned): (&'a Brief, &'a Planned),
@@ -58,20 +58,20 @@ impl<'a> Story<'a> {
     }
 
     /// Places of a frame's faults, and what they are.
-    pub fn marks(&self, frame: &Frame) -> Vec<(DVec2, String)> {
+    pub(crate) fn marks(&self, frame: &Frame) -> Vec<(DVec2, String)> {
         (self.tell)(frame)
     }
 
-    pub fn first(&self) -> &Frame {
+    pub(crate) fn first(&self) -> &Frame {
         &self.frames[0]
     }
 
-    pub fn last(&self) -> &Frame {
+    pub(crate) fn last(&self) -> &Frame {
         &self.frames[self.frames.len() - 1]
     }
 
     /// Indices of at most `most` frames, evenly spread, the first and the last among them.
-    pub fn picked(&self, most: usize) -> Vec<usize> {
+    pub(crate) fn picked(&self, most: usize) -> Vec<usize> {
         let last = self.frames.len() - 1;
         let steps = last.min(most.saturating_sub(1));
         let at = |k: usize| (2 * k * last + steps) / (2 * steps).max(1);
@@ -79,12 +79,12 @@ impl<'a> Story<'a> {
     }
 
     /// Whether given pillars were moved, taken away or joined by others.
-    pub fn mended(&self) -> bool {
+    pub(crate) fn mended(&self) -> bool {
         !self.planned.changes.is_empty()
     }
 
     /// The owner of a pillar, if it has one.
-    pub fn owner(&self, pillar: &Pillar) -> Option<(&View, &str)> {
+    pub(crate) fn owner(&self, pillar: &Pillar) -> Option<(&View, &str)> {
         let v = pillar.owner?;
         self.views.get(v).zip(self.keys.get(v).map(String::as_str))
     }

@@ -19,7 +19,7 @@ const MAP: f64 = 78.0;
 /// Layout unit of the maps.
 const UNIT: f64 = 0.5;
 
-pub fn draw(story: &Story) -> Drawing {
+pub(crate) fn draw(story: &Story) -> Drawing {
     let picked = story.picked(MAPS);
     let rows = picked.len().div_ceil(ACROSS);
     let size = DVec2::new(

@@ -21,7 +21,7 @@ const NAME_WIDTH: f64 = 27.0;
 const FIGURES: [f64; 7] = [62.0, 76.0, 88.0, 101.0, 115.0, 130.0, 146.0];
 
 /// All of it: adjusted models have a note below their view's name.
-pub fn height(story: &Story) -> f64 {
+pub(crate) fn height(story: &Story) -> f64 {
     let notes = story
         .planned
         .adjustments
@@ -46,7 +46,7 @@ fn adjusted(a: &Adjustment) -> Option<String> {
 }
 
 /// Draws it from `top` down.
-pub fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
+pub(crate) fn draw(drawing: &mut Drawing, story: &Story, top: f64) {
     let head = TextStyle::new(2.6, Typeface::Light, QUIET, Align::End);
     let off = format!("at {}", words::angle(story.brief));
     let titles = [

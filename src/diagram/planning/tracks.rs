@@ -8,7 +8,7 @@ use glam::DVec2;
 
 /// One pillar through all frames.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Track {
+pub(crate) struct Track {
     /// As it is where it stands first.
     pub pillar: Pillar,
     /// Index: frame; `None` where it does not stand.
@@ -17,7 +17,7 @@ pub struct Track {
 
 impl Track {
     /// Where to draw it at a frame: where it stood last or will stand first if it does not stand.
-    pub fn place(&self, frame: usize) -> DVec2 {
+    pub(crate) fn place(&self, frame: usize) -> DVec2 {
         let before = self.at[..=frame].iter().rev().flatten().next();
         let after = || self.at[frame..].iter().flatten().next();
         *before.or_else(after).unwrap_or(&self.pillar.at)
@@ -25,7 +25,7 @@ impl Track {
 }
 
 /// The tracks through some frames, in order of appearance.
-pub fn tracks(frames: &[&Frame]) -> Vec<Track> {
+pub(crate) fn tracks(frames: &[&Frame]) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
         let matched = matches(&tracks, k, &frame.pillars);

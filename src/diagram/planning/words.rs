@@ -3,7 +3,7 @@
 use crate::planner::{Brief, Ended, Fault, FaultKind};
 
 /// A length: two digits that matter, none behind the point from 10 mm on. Endless is "any".
-pub fn millimetres(mm: f64) -> String {
+pub(crate) fn millimetres(mm: f64) -> String {
     if !mm.is_finite() {
         return "any".into();
     }
@@ -15,7 +15,7 @@ pub fn millimetres(mm: f64) -> String {
     format!("{mm:.digits$} mm")
 }
 
-pub fn degrees(deg: f64) -> String {
+pub(crate) fn degrees(deg: f64) -> String {
     if deg.is_finite() {
         format!("{deg:.1}°")
     } else {
@@ -24,7 +24,7 @@ pub fn degrees(deg: f64) -> String {
 }
 
 /// A count with its thousands set apart.
-pub fn count(n: u64) -> String {
+pub(crate) fn count(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (k, c) in digits.chars().enumerate() {
@@ -37,7 +37,7 @@ pub fn count(n: u64) -> String {
 }
 
 /// `1 pillar`, `1,200 pillars`.
-pub fn plural(n: u64, what: &str) -> String {
+pub(crate) fn plural(n: u64, what: &str) -> String {
     let tail = match (n, what) {
         (1, "try") => "try",
         (_, "try") => "tries",
@@ -48,13 +48,13 @@ pub fn plural(n: u64, what: &str) -> String {
 }
 
 /// The angle off at which errors are forecast: `10°`.
-pub fn angle(brief: &Brief) -> String {
+pub(crate) fn angle(brief: &Brief) -> String {
     let deg = (10.0 * brief.hidden_from_deg).round() / 10.0;
     format!("{deg}°")
 }
 
 /// Every kind of fault that there is, worst first.
-pub fn faults(faults: &[Fault]) -> Option<String> {
+pub(crate) fn faults(faults: &[Fault]) -> Option<String> {
     let kinds = [
         (FaultKind::Uncovered, "uncovered"),
         (FaultKind::Foreign, "on other views' pillars"),
@@ -84,12 +84,12 @@ pub fn faults(faults: &[Fault]) -> Option<String> {
 }
 
 /// Of all faults together, millimetres.
-pub fn wrong<'a>(faults: impl IntoIterator<Item = &'a Fault>) -> f64 {
+pub(crate) fn wrong<'a>(faults: impl IntoIterator<Item = &'a Fault>) -> f64 {
     // Nothing at all sums to -0.
     faults.into_iter().map(|f| f.mm).sum::<f64>() + 0.0
 }
 
-pub fn ended(ended: Ended) -> &'static str {
+pub(crate) fn ended(ended: Ended) -> &'static str {
     match ended {
         Ended::Tries => "all tries made",
         Ended::Converged => "ended as nothing better was found for long",

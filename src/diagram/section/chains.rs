@@ -7,17 +7,20 @@ use glam::DVec2;
 const JOIN_MM: f64 = 0.02;
 
 /// A value at both ends of a stretch, and what it belongs to: lines end where that changes.
-pub type DepthsOfGroup = Option<(Option<usize>, [f64; 2])>;
+pub(crate) type DepthsOfGroup = Option<(Option<usize>, [f64; 2])>;
 
 /// A line in the section and what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Polyline {
+pub(crate) struct Polyline {
     pub of: Option<usize>,
     pub points: Vec<DVec2>,
 }
 
 /// The lines of a value: from stretch to stretch as long as it does not jump.
-pub fn chains(section: &Section, value: impl Fn(&Stretch) -> DepthsOfGroup) -> Vec<Polyline> {
+pub(crate) fn chains(
+    section: &Section,
+    value: impl Fn(&Stretch) -> DepthsOfGroup,
+) -> Vec<Polyline> {
     let mut chains: Vec<Polyline> = Vec::new();
     for stretch in &section.stretches {
         let Some((of, [a, b])) = value(stretch) else {
@@ -41,12 +44,12 @@ pub fn chains(section: &Section, value: impl Fn(&Stretch) -> DepthsOfGroup) -> V
 }
 
 /// The surface before it is cut.
-pub fn surface(s: &Stretch) -> (Option<usize>, [f64; 2]) {
+pub(crate) fn surface(s: &Stretch) -> (Option<usize>, [f64; 2]) {
     (None, s.surface)
 }
 
 /// Rooms between the bounds of every group, scaled by `scale` of the group: polygons.
-pub fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Polyline> {
+pub(crate) fn rooms(section: &Section, scale: impl Fn(usize) -> f64) -> Vec<Polyline> {
     let side = |far: bool| {
         let scale = &scale;
         move |s: &Stretch| -> DepthsOfGroup {
@@ -91,7 +94,7 @@ fn between(far: Polyline, near: Polyline) -> Polyline {
 }
 
 /// Where the surface jumps along a ray and the model does not: both places.
-pub fn tears(section: &Section) -> Vec<[DVec2; 2]> {
+pub(crate) fn tears(section: &Section) -> Vec<[DVec2; 2]> {
     let pairs = section.stretches.windows(2);
     let tear = |pair: &[Stretch]| {
         let (a, b) = (pair[0], pair[1]);

@@ -9,7 +9,7 @@ const AIR: f64 = 0.7;
 const SIZES: [f64; 4] = [2.6, 2.3, 2.0, 1.8];
 
 /// The largest size at which all texts fit side by side, and which of them fit at the smallest: the most important ones first.
-pub fn fitting(texts: &[String], importance: &[f64], room: f64) -> (f64, Vec<usize>) {
+pub(crate) fn fitting(texts: &[String], importance: &[f64], room: f64) -> (f64, Vec<usize>) {
     let need = |k: usize, size: f64| width(&texts[k], size, Typeface::Regular) + AIR * size;
     let all: Vec<usize> = (0..texts.len()).collect();
     let fits = |size: &&f64| all.iter().map(|k| need(*k, **size)).sum::<f64>() <= room;
@@ -32,7 +32,7 @@ pub fn fitting(texts: &[String], importance: &[f64], room: f64) -> (f64, Vec<usi
 }
 
 /// Middles of labels as near to where they want to be as the row from `lo` to `hi` lets them; `wanted` rises.
-pub fn spread(wanted: &[f64], texts: &[&str], size: f64, (lo, hi): (f64, f64)) -> Vec<f64> {
+pub(crate) fn spread(wanted: &[f64], texts: &[&str], size: f64, (lo, hi): (f64, f64)) -> Vec<f64> {
     let half: Vec<f64> = texts
         .iter()
         .map(|t| (width(t, size, Typeface::Regular) + AIR * size) / 2.0)

@@ -17,7 +17,7 @@ pub struct SlicedOutline {
 type Edge = (VertexId, VertexId);
 
 /// All lines that lie before the eye. A vertex on the plane counts as above it: no triangle is met in a single point.
-pub fn slice(mesh: &TriMesh, cut: &SectionPlane) -> Vec<SlicedOutline> {
+pub(crate) fn slice(mesh: &TriMesh, cut: &SectionPlane) -> Vec<SlicedOutline> {
     let (sideways, away) = cut.frame();
     let normal = sideways.cross(away);
     let eye = cut.plane.eye;

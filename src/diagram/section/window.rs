@@ -4,22 +4,22 @@ use super::chains::{chains, rooms, surface};
 use super::values::Section;
 use glam::DVec2;
 
-pub const WIDTH: f64 = 297.0;
-pub const EDGE: f64 = 10.0;
+pub(crate) const WIDTH: f64 = 297.0;
+pub(crate) const EDGE: f64 = 10.0;
 const GAP: f64 = 6.0;
-pub const PANEL: f64 = (WIDTH - 2.0 * EDGE - 2.0 * GAP) / 3.0;
+pub(crate) const PANEL: f64 = (WIDTH - 2.0 * EDGE - 2.0 * GAP) / 3.0;
 /// Least and greatest height of a panel.
 const HEIGHTS: [f64; 2] = [50.0, 150.0];
 /// Above the panels: heading, and labels with their leaders.
-pub const HEAD: f64 = 27.0;
-pub const LABELS: f64 = 13.0;
+pub(crate) const HEAD: f64 = 27.0;
+pub(crate) const LABELS: f64 = 13.0;
 
 /// Supports are shown this share of the rest's size beyond it.
 const AROUND: f64 = 0.3;
 
 /// The part of the section that a panel shows, and where on the page.
 #[derive(Clone, Copy)]
-pub struct Window {
+pub(crate) struct Window {
     /// Of the section, millimetres.
     pub lo: DVec2,
     pub hi: DVec2,
@@ -29,7 +29,7 @@ pub struct Window {
 }
 
 impl Window {
-    pub fn new(section: &Section) -> Self {
+    pub(crate) fn new(section: &Section) -> Self {
         let mut points: Vec<DVec2> = section
             .model
             .iter()
@@ -82,36 +82,36 @@ impl Window {
         }
     }
 
-    pub fn panel(&self, k: usize) -> Self {
+    pub(crate) fn panel(&self, k: usize) -> Self {
         Self {
             left: EDGE + k as f64 * (PANEL + GAP),
             ..*self
         }
     }
 
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.scale * (self.hi.y - self.lo.y)
     }
 
-    pub fn top() -> f64 {
+    pub(crate) fn top() -> f64 {
         HEAD + LABELS
     }
 
-    pub fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         Self::top() + self.height()
     }
 
-    pub fn place(&self, p: DVec2) -> DVec2 {
+    pub(crate) fn place(&self, p: DVec2) -> DVec2 {
         let at = self.scale * DVec2::new(p.x - self.lo.x, self.hi.y - p.y);
         DVec2::new(self.left, Self::top()) + at
     }
 
-    pub fn places(&self, points: &[DVec2]) -> Vec<DVec2> {
+    pub(crate) fn places(&self, points: &[DVec2]) -> Vec<DVec2> {
         points.iter().map(|p| self.place(*p)).collect()
     }
 
     /// The part of a line between two points that is shown.
-    pub fn clipped(&self, a: DVec2, b: DVec2) -> Option<[DVec2; 2]> {
+    pub(crate) fn clipped(&self, a: DVec2, b: DVec2) -> Option<[DVec2; 2]> {
         let (mut from, mut to) = (0.0f64, 1.0f64);
         for k in 0..2 {
             let (start, way) = (a[k], b[k] - a[k]);
@@ -129,7 +129,7 @@ impl Window {
     }
 
     /// The part of a polygon that is shown (Sutherland & Hodgman).
-    pub fn clipped_polygon(&self, points: &[DVec2]) -> Vec<DVec2> {
+    pub(crate) fn clipped_polygon(&self, points: &[DVec2]) -> Vec<DVec2> {
         let sides = [
             (0, self.lo.x, 1.0),
             (0, self.hi.x, -1.0),

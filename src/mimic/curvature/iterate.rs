@@ -26,7 +26,7 @@ const SETTLED: f64 = 1e-3;
 const RUNAWAY: f64 = 1.1;
 
 /// The depths after as many rounds as it takes, from the solution `first` of the linearised problem.
-pub fn iterated(problem: &Problem, first: Depths) -> Depths {
+pub(crate) fn iterated(problem: &Problem, first: Depths) -> Depths {
     let gauge = Turn::new(problem);
     let linearised_deg = gauge.mean_deg(&first.s);
     let mut kept = (0, linearised_deg, first.clone());

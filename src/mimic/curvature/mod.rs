@@ -27,7 +27,7 @@ use problem::Problem;
 ///
 /// # Errors
 /// If the first program is infeasible or cannot be solved. What befalls later ones of an iteration is told in the result.
-pub fn depths(
+pub(crate) fn depths(
     options: CurvatureOptions,
     sight: &Sight,
     keeping: &Keeping,

@@ -19,7 +19,7 @@ use crate::viewmap::Image;
 const ALPHA: f64 = 1e-9;
 
 /// What all programs of one view have in common.
-pub struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub options: CurvatureOptions,
     pub image: &'a Image<'a>,
     groups: &'a Groups,
@@ -32,7 +32,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(options: CurvatureOptions, sight: &'a Sight, keeping: &Keeping) -> Self {
+    pub(crate) fn new(options: CurvatureOptions, sight: &'a Sight, keeping: &Keeping) -> Self {
         let Sight { image, groups, .. } = sight;
         Self {
             options,
@@ -46,7 +46,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The linearised problem.
-    pub fn first(&self) -> Result<Depths, SolveError> {
+    pub(crate) fn first(&self) -> Result<Depths, SolveError> {
         let forms = if self.options.scale_invariant {
             self.model.scale_invariant()
         } else {
@@ -56,12 +56,12 @@ impl<'a> Problem<'a> {
         self.solve(&self.model, &forms, &start)
     }
 
-    pub fn is_used(&self, vertex: usize) -> bool {
+    pub(crate) fn is_used(&self, vertex: usize) -> bool {
         self.model.areas[vertex] > 0.0
     }
 
     /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
-    pub fn solve(
+    pub(crate) fn solve(
         &self,
         sheet: &Sheet,
         forms: &[Form],

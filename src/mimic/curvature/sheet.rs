@@ -15,13 +15,13 @@ const FLAT: f64 = 0.01;
 
 /// Coefficients of the relative depths in the row of a vertex, three coordinates at once, and its value at the depths where
 /// the row was made.
-pub struct Form {
+pub(crate) struct Form {
     pub terms: Vec<(usize, DVec3)>,
     pub value: DVec3,
 }
 
 /// A surface as the eye's rays and its distances make it.
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// Vertices from the eye, millimetres.
     rays: Vec<DVec3>,
     /// Neighbours of every vertex with their entries of `C`.
@@ -33,7 +33,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    pub fn new(mesh: &TriMesh, eye: DVec3) -> Self {
+    pub(crate) fn new(mesh: &TriMesh, eye: DVec3) -> Self {
         let geometry = FaceGeometry::new(mesh);
         let rays: Vec<DVec3> = mesh.vertices.iter().map(|v| *v - eye).collect();
         let rings = rings(mesh, &geometry);
@@ -50,7 +50,7 @@ impl Sheet {
     }
 
     /// Rows of Eq 9: `sum over j of c_ij v_j (s_j - s_i)`, exactly zero for `s = 1`.
-    pub fn scale_invariant(&self) -> Vec<Form> {
+    pub(crate) fn scale_invariant(&self) -> Vec<Form> {
         let form = |ring: &Vec<(usize, f64)>, i| {
             let mut terms = self.neighbours(ring);
             let sum: DVec3 = terms.iter().map(|t| t.1).sum();
@@ -65,7 +65,7 @@ impl Sheet {
 
     /// The same without the term `lambda_i / lambda0_i` of Eq 7: `sum over j of c_ij v_j s_j - (sum over j of c_ij) v_i s_i -
     /// (C v)_i`.
-    pub fn absolute(&self) -> Vec<Form> {
+    pub(crate) fn absolute(&self) -> Vec<Form> {
         let form = |ring: &Vec<(usize, f64)>, i: usize| {
             let mut terms = self.neighbours(ring);
             let sum: f64 = ring.iter().map(|t| t.1).sum();
@@ -82,7 +82,7 @@ impl Sheet {
     /// `sum over j of c_ij (v_j s_j - v_i s_i) - (C0 v)_i s_i`. What is wanted stays the model's curvature over each vertex's
     /// region, `C v = -2 A H n`, which grows with the surface as lengths do: so these rows are scale invariant, too, and those of
     /// the model itself are [`Self::scale_invariant`].
-    pub fn rows_on(&self, moved: &Self, s: &[f64]) -> Vec<Form> {
+    pub(crate) fn rows_on(&self, moved: &Self, s: &[f64]) -> Vec<Form> {
         let form = |ring: &Vec<(usize, f64)>, i: usize| {
             let mut terms = self.neighbours(ring);
             let sum: f64 = ring.iter().map(|t| t.1).sum();
@@ -96,14 +96,14 @@ impl Sheet {
     }
 
     /// The curvature below which a part of this surface counts as flat, 1 / mm.
-    pub fn flat(&self) -> f64 {
+    pub(crate) fn flat(&self) -> f64 {
         let curvature = |i: usize| self.areas[i] * self.curvature(i);
         let total: f64 = self.areas.iter().sum();
         FLAT * (0..self.areas.len()).map(curvature).sum::<f64>() / total
     }
 
     /// `sqrt(H^2 + flat^2)` of every vertex, 1 / mm: the size of the mean curvature, never less than `flat`.
-    pub fn curvatures(&self, flat: f64) -> Vec<f64> {
+    pub(crate) fn curvatures(&self, flat: f64) -> Vec<f64> {
         (0..self.areas.len())
             .map(|i| self.curvature(i).hypot(flat))
             .collect()

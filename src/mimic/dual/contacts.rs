@@ -20,7 +20,7 @@ const STEPS: usize = 20;
 
 /// See the module.
 #[derive(Default)]
-pub struct Contacts {
+pub(crate) struct Contacts {
     k: Vec<Vec<f64>>,
     /// Rows of `H`, sparse.
     h: Vec<Vec<(usize, f64)>>,
@@ -52,7 +52,7 @@ struct Direction {
 }
 
 impl Contacts {
-    pub fn new(stiffness: Vec<f64>) -> Self {
+    pub(crate) fn new(stiffness: Vec<f64>) -> Self {
         Self {
             d: vec![0.0; stiffness.len()],
             t: vec![0.0; stiffness.len()],
@@ -61,16 +61,16 @@ impl Contacts {
         }
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.c.len()
     }
 
-    pub fn binding(&self) -> usize {
+    pub(crate) fn binding(&self) -> usize {
         self.binding.len()
     }
 
     /// Adds a row: its products with all rows so far and itself, its row of `H`, its residual at `z = 0` and `t = 0`.
-    pub fn push(&mut self, mut k: Vec<f64>, h: Vec<(usize, f64)>, c: f64, equal: bool) {
+    pub(crate) fn push(&mut self, mut k: Vec<f64>, h: Vec<(usize, f64)>, c: f64, equal: bool) {
         if let Some(own) = k.last_mut() {
             *own *= 1.0 + RIDGE;
         }
@@ -84,7 +84,7 @@ impl Contacts {
     }
 
     /// Finds `z` and `t` from those of the last time; false if rows contradict each other or it does not end.
-    pub fn solve(&mut self) -> bool {
+    pub(crate) fn solve(&mut self) -> bool {
         self.restart();
         for _ in 0..STEPS * self.len() + STEPS {
             let broken = (0..self.len()).filter(|i| self.by(*i) > BROKEN);
@@ -100,7 +100,7 @@ impl Contacts {
 
     /// Takes residuals as they were measured for the last solution for true; gives the largest by which a row is not as it
     /// should be.
-    pub fn correct(&mut self, residuals: &[f64]) -> f64 {
+    pub(crate) fn correct(&mut self, residuals: &[f64]) -> f64 {
         let mut off = 0.0f64;
         for (i, r) in residuals.iter().enumerate() {
             self.c[i] += r - self.r[i];

@@ -16,7 +16,7 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 use sprs::CsMat;
 
 /// A factorised matrix.
-pub struct Factor {
+pub(crate) struct Factor {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
     /// Supernode of every column of `L`.
@@ -26,7 +26,7 @@ pub struct Factor {
 }
 
 /// `L^-1 g`: entries of whole supernodes, rising.
-pub struct Half {
+pub(crate) struct Half {
     /// Supernodes, and where the entries of each begin.
     parts: Vec<(u32, u32)>,
     values: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Half {
 impl Factor {
     /// Factorises a matrix given by its upper triangle, compressed columns; nothing if it is not positive definite or memory
     /// runs out.
-    pub fn new(upper: &CsMat<f64>) -> Option<Self> {
+    pub(crate) fn new(upper: &CsMat<f64>) -> Option<Self> {
         let n = upper.cols();
         let starts = upper.indptr();
         let pattern =
@@ -79,7 +79,7 @@ impl Factor {
     }
 
     /// `P^-1` times a vector, in place.
-    pub fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         let n = x.len();
         let request: StackReq = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut memory = MemBuffer::new(request);
@@ -92,7 +92,7 @@ impl Factor {
     }
 
     /// `L^-1` times a sparse vector. `work` has an entry for every unknown, all zero before and after.
-    pub fn half(&self, terms: &[(usize, f64)], work: &mut [f64]) -> Half {
+    pub(crate) fn half(&self, terms: &[(usize, f64)], work: &mut [f64]) -> Half {
         let Some(tree) = supernodes(&self.symbolic) else {
             unreachable!("checked when it was made")
         };
@@ -145,7 +145,7 @@ impl Factor {
 
 impl Half {
     /// The scalar product.
-    pub fn dot(&self, other: &Self) -> f64 {
+    pub(crate) fn dot(&self, other: &Self) -> f64 {
         let (mut i, mut j, mut sum) = (0, 0, 0.0);
         while i < self.parts.len() && j < other.parts.len() {
             let (a, b) = (self.parts[i].0, other.parts[j].0);

@@ -15,7 +15,7 @@ const LENT: f64 = 1e-10;
 const STEPS: usize = 2;
 
 /// `P` with its pins.
-pub struct Pinned {
+pub(crate) struct Pinned {
     upper: CsMat<f64>,
     /// Sums of the rows of `P`.
     sums: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Pinned {
 
 impl Pinned {
     /// Pins and factorises a form given by its upper triangle; nothing if it is indefinite.
-    pub fn new(upper: &CsMat<f64>) -> Option<Self> {
+    pub(crate) fn new(upper: &CsMat<f64>) -> Option<Self> {
         let n = upper.cols();
         let sigma = mean_diagonal(upper, n);
         let (pin, places) = pins(upper, SOFT * sigma);
@@ -89,7 +89,7 @@ impl Pinned {
     }
 
     /// `n'x` of every part.
-    pub fn along(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn along(&self, x: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.places.len()];
         for ((pin, n), x) in self.pin.iter().zip(&self.direction).zip(x) {
             if let Some(p) = pin {
@@ -100,20 +100,20 @@ impl Pinned {
     }
 
     /// `n'g` of a sparse vector, only parts that it has to do with.
-    pub fn along_terms(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    pub(crate) fn along_terms(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let share = |(i, v): &(usize, f64)| Some((self.pin[*i]? as usize, v * self.direction[*i]));
         gathered(terms.iter().filter_map(share).collect())
     }
 
     /// `n t`.
-    pub fn moved(&self, t: &[f64]) -> Vec<f64> {
+    pub(crate) fn moved(&self, t: &[f64]) -> Vec<f64> {
         let by = self.pin.iter().zip(&self.direction);
         by.map(|(pin, n)| pin.map_or(0.0, |p| n * t[p as usize]))
             .collect()
     }
 
     /// The least value of every unknown and its neighbours; lone unknowns are nobody's concern.
-    pub fn least_near(&self, values: &[usize]) -> Vec<usize> {
+    pub(crate) fn least_near(&self, values: &[usize]) -> Vec<usize> {
         let mut near = vec![usize::MAX; values.len()];
         for (j, column) in self.upper.outer_iterator().enumerate() {
             for (i, _) in column.iter().filter(|(i, _)| *i != j) {
@@ -126,12 +126,12 @@ impl Pinned {
     }
 
     /// `L^-1 g` for `Q = L L'`.
-    pub fn half(&self, terms: &[(usize, f64)], work: &mut [f64]) -> Half {
+    pub(crate) fn half(&self, terms: &[(usize, f64)], work: &mut [f64]) -> Half {
         self.factor.half(terms, work)
     }
 
     /// `Q^-1 b` from a start near it, or from 0: every step takes off all but 1e-5 of what is missing.
-    pub fn solve(&self, mut x: Vec<f64>, b: &[f64]) -> Vec<f64> {
+    pub(crate) fn solve(&self, mut x: Vec<f64>, b: &[f64]) -> Vec<f64> {
         for _ in 0..STEPS {
             let mut rest = self.times(&x);
             self.places

@@ -10,7 +10,7 @@ use crate::planner::subject::Subject;
 use crate::steps::UNSEEN_RAD;
 
 /// One eye and what stands before it.
-pub struct OfView<'a> {
+pub(crate) struct OfView<'a> {
     pub subject: &'a Subject,
     pub view: usize,
     pub brief: &'a Brief,
@@ -20,7 +20,7 @@ pub struct OfView<'a> {
 
 impl OfView<'_> {
     /// Faults of what the eye meets.
-    pub fn look(&self, faults: &mut Vec<Fault>) {
+    pub(crate) fn look(&self, faults: &mut Vec<Fault>) {
         let overlap = self.brief.care.overlap;
         for (k, run) in self.skyline.runs.iter().enumerate() {
             let Some(i) = run.obstacle else {
@@ -118,7 +118,7 @@ impl OfView<'_> {
     }
 
     /// See [`Survey::rates`](super::Survey::rates).
-    pub fn rates(&self) -> [f64; 2] {
+    pub(crate) fn rates(&self) -> [f64; 2] {
         let mut worst = [0.0f64; 2];
         let pairs = self.skyline.runs.windows(2);
         for pair in pairs.filter(|p| p[0].to == p[1].from) {
@@ -138,7 +138,7 @@ impl OfView<'_> {
     }
 
     /// The fault of cuts that open faster than the tolerance allows: how far the farther piece would have to come nearer.
-    pub fn open(&self, rate: f64, tolerance_mm: f64) -> Option<Fault> {
+    pub(crate) fn open(&self, rate: f64, tolerance_mm: f64) -> Option<Fault> {
         let allowed = UNSEEN_RAD / tolerance_mm;
         let away = (self.subject.middle.truncate() - self.subject.o).length();
         (tolerance_mm > 0.0 && rate > allowed).then(|| Fault {

@@ -13,4 +13,4 @@ mod room;
 
 pub use all_eyes::Survey;
 pub use fault::{Fault, FaultKind};
-pub use offsets::{Offsets, reach_of};
+pub(crate) use offsets::{Offsets, reach_of};

@@ -9,7 +9,7 @@ const BACKING_MM: f64 = 0.8;
 
 /// Where a pillar's relief may lie, seen from its owner: offsets of planes behind the axis plane, millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Offsets {
+pub(crate) struct Offsets {
     pub near: f64,
     /// Of the layer, and with the backing.
     pub back: f64,
@@ -19,7 +19,7 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    pub fn new(shape: &Shape) -> Self {
+    pub(crate) fn new(shape: &Shape) -> Self {
         let layer = shape.layer;
         let near = match layer.datum() {
             Datum::Plane => -layer.front,
@@ -35,7 +35,7 @@ impl Offsets {
 }
 
 /// Horizontal distances between which rays meet a pillar or its relief.
-pub fn reach_of(shadow: &Shadow, shape: &Shape) -> [f64; 2] {
+pub(crate) fn reach_of(shadow: &Shadow, shape: &Shape) -> [f64; 2] {
     let offsets = Offsets::new(shape);
     let near = shadow.distance + offsets.near.min(-shape.reach);
     let far = (shadow.distance + offsets.far) / (shadow.to - shadow.middle).min(1.0).cos();

@@ -13,7 +13,7 @@ const SIGHT_ROOM_MM: f64 = 0.12;
 
 /// The room in plan that the relief of one run may fill.
 #[derive(Clone, Copy, Debug)]
-pub struct Parcel {
+pub(crate) struct Parcel {
     view: usize,
     pillar: usize,
     run: usize,
@@ -25,7 +25,7 @@ pub struct Parcel {
 }
 
 /// The parcels of all runs on pillars of their own view.
-pub fn parcels(
+pub(crate) fn parcels(
     subjects: &[&Subject],
     shapes: &[Shape],
     pillars: &[Pillar],
@@ -72,7 +72,7 @@ pub fn parcels(
 }
 
 /// Reliefs of one view that stand in sight lines of another.
-pub fn in_sight(
+pub(crate) fn in_sight(
     subjects: &[&Subject],
     pillars: &[Pillar],
     skylines: &[Skyline],
@@ -148,7 +148,12 @@ fn shared_depth(
 }
 
 /// Room between bodies, and between reliefs and what is not their own pillar.
-pub fn tight(brief: &Brief, pillars: &[Pillar], parcels: &[Parcel], faults: &mut Vec<Fault>) {
+pub(crate) fn tight(
+    brief: &Brief,
+    pillars: &[Pillar],
+    parcels: &[Parcel],
+    faults: &mut Vec<Fault>,
+) {
     let shapes = &brief.shapes;
     let mut note = |i: usize, j: usize, mm: f64, at: DVec2| {
         if mm > 0.0 {
@@ -231,7 +236,7 @@ fn to_convex(corners: &[DVec2; 4], p: DVec2) -> f64 {
 }
 
 /// Faults of places and numbers.
-pub fn placed(brief: &Brief, pillars: &[Pillar], faults: &mut Vec<Fault>) {
+pub(crate) fn placed(brief: &Brief, pillars: &[Pillar], faults: &mut Vec<Fault>) {
     for (i, pillar) in pillars.iter().enumerate().filter(|(_, p)| !p.fixed) {
         let mm = brief
             .region

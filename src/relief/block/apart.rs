@@ -15,7 +15,7 @@ const PULL_MM: f64 = 0.01;
 const FULL_TURN: f64 = std::f64::consts::TAU - 0.01;
 
 /// Moves all but the widest fan of each point a little inwards. Gives the map cells of fans that cannot move, rising.
-pub fn pull_apart(block: &mut BlockCells, map: &ViewMap) -> Vec<CellId> {
+pub(crate) fn pull_apart(block: &mut BlockCells, map: &ViewMap) -> Vec<CellId> {
     let mut by_point: Vec<_> = FanId::all(block.fans.len())
         .map(|f| {
             let corners = &block.fans[f].corners;
@@ -50,7 +50,7 @@ fn pull(block: &mut BlockCells, map: &ViewMap, f: FanId) -> bool {
 }
 
 /// Moves the edge behind nearer supports outwards, as far as no cell turns over.
-pub fn lap(block: &mut BlockCells, hidden: &impl Fn(CellId, usize) -> bool, lap_mm: f64) {
+pub(crate) fn lap(block: &mut BlockCells, hidden: &impl Fn(CellId, usize) -> bool, lap_mm: f64) {
     let mut outwards: BTreeMap<FanId, DVec2> = BTreeMap::new();
     for side in block.sides() {
         if block.across(side).is_some() || !hidden(block.in_map[side.cell], side.k) {

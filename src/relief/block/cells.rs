@@ -14,13 +14,13 @@ indices! {
 
 /// A corner of a cell: the cell, and which of its three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellCorner {
+pub(crate) struct CellCorner {
     pub cell: LocalId,
     pub k: usize,
 }
 
 /// The cells around a point that hang together through shared sides, counter-clockwise.
-pub struct Fan {
+pub(crate) struct Fan {
     pub q: DVec2,
     pub corners: Vec<CellCorner>,
     /// Whether they close a full circle.
@@ -28,7 +28,7 @@ pub struct Fan {
 }
 
 /// See the module. Lists by cell have three entries, one for every corner, or side from corner `k` to the next.
-pub struct BlockCells {
+pub(crate) struct BlockCells {
     pub plane: ImagePlane,
     pub in_map: Vec<CellId>,
     points: Vec<[PointId; 3]>,
@@ -40,7 +40,7 @@ pub struct BlockCells {
 
 impl BlockCells {
     /// `cells` rise; each has depths.
-    pub fn new(map: &ViewMap, cells: &[CellId], depth: &[Option<[f64; 3]>]) -> Self {
+    pub(crate) fn new(map: &ViewMap, cells: &[CellId], depth: &[Option<[f64; 3]>]) -> Self {
         let local = |c: CellId| cells.binary_search(&c).ok().map(LocalId::new);
         let neighbours = cells.iter().map(|c| map.neighbours[*c].map(|n| local(n?)));
         let depth = cells
@@ -59,44 +59,44 @@ impl BlockCells {
         block
     }
 
-    pub fn all(&self) -> impl Iterator<Item = LocalId> + use<> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = LocalId> + use<> {
         LocalId::all(self.in_map.len())
     }
 
     /// All sides, by cell and corner.
-    pub fn sides(&self) -> impl Iterator<Item = CellCorner> + use<> {
+    pub(crate) fn sides(&self) -> impl Iterator<Item = CellCorner> + use<> {
         self.all()
             .flat_map(|cell| (0..3).map(move |k| CellCorner { cell, k }))
     }
 
-    pub fn point(&self, at: CellCorner) -> PointId {
+    pub(crate) fn point(&self, at: CellCorner) -> PointId {
         self.points[at.cell][at.k]
     }
 
-    pub fn points_of(&self, cell: LocalId) -> [PointId; 3] {
+    pub(crate) fn points_of(&self, cell: LocalId) -> [PointId; 3] {
         self.points[cell]
     }
 
-    pub fn depth_at(&self, at: CellCorner) -> f64 {
+    pub(crate) fn depth_at(&self, at: CellCorner) -> f64 {
         self.depth[at.cell][at.k]
     }
 
-    pub fn fan_at(&self, at: CellCorner) -> FanId {
+    pub(crate) fn fan_at(&self, at: CellCorner) -> FanId {
         self.fan_of[at.cell][at.k]
     }
 
-    pub fn across(&self, side: CellCorner) -> Option<LocalId> {
+    pub(crate) fn across(&self, side: CellCorner) -> Option<LocalId> {
         self.neighbours[side.cell][side.k]
     }
 
     /// Both fans at the ends of a side.
-    pub fn ends(&self, side: CellCorner) -> [FanId; 2] {
+    pub(crate) fn ends(&self, side: CellCorner) -> [FanId; 2] {
         let fans = self.fan_of[side.cell];
         [fans[side.k], fans[(side.k + 1) % 3]]
     }
 
     /// Depths around a fan.
-    pub fn fan_depths(&self, f: FanId) -> Vec<f64> {
+    pub(crate) fn fan_depths(&self, f: FanId) -> Vec<f64> {
         let corners = self.fans[f].corners.iter();
         corners.map(|at| self.depth_at(*at)).collect()
     }

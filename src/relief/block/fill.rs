@@ -7,7 +7,7 @@ use super::cells::{BlockCells, CellCorner, FanId, LocalId};
 const LEVEL_MM: f64 = 0.003;
 
 /// Makes depths around every point and along every side fit for a manifold; gives the number of corners changed.
-pub fn settle(block: &mut BlockCells) -> usize {
+pub(crate) fn settle(block: &mut BlockCells) -> usize {
     let fans = FanId::all(block.fans.len());
     fans.clone().for_each(|f| cluster_levels(block, f));
     let before = block.depth.clone();

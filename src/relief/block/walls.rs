@@ -5,7 +5,7 @@ use crate::index::{CellId, VertexId};
 use crate::mesh::TriMesh;
 use glam::DVec2;
 
-pub fn closed(block: &BlockCells, back: impl Fn(CellId, DVec2) -> f64) -> TriMesh {
+pub(crate) fn closed(block: &BlockCells, back: impl Fn(CellId, DVec2) -> f64) -> TriMesh {
     let mut mesh = TriMesh::default();
     let columns: Vec<Column> = FanId::all(block.fans.len())
         .map(|f| column(block, f, &back, &mut mesh))

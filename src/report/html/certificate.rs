@@ -19,7 +19,7 @@ const ALWAYS: &str = "as far as it likes";
 struct Answer(&'static str, String, Option<bool>, String);
 
 /// The certificate's tables; `name` is the view's.
-pub fn certificate(name: &str, found: &CertificateReport) -> String {
+pub(crate) fn certificate(name: &str, found: &CertificateReport) -> String {
     let mut html = format!(
         "<div class=\"scroll\"><table class=\"certificate\">\n<caption>Certificate of {}</caption>\n\
          <thead><tr><th scope=\"col\">what</th><th scope=\"col\">found</th><th scope=\"col\">holds</th>\

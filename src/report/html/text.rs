@@ -4,7 +4,7 @@ use crate::formats::markup::escaped;
 use std::fmt::Write as _;
 
 /// Where there is no figure.
-pub const DASH: &str = "\u{2013}";
+pub(crate) const DASH: &str = "\u{2013}";
 /// Between a figure and its unit: narrow, and no line breaks there.
 const THIN: char = '\u{202F}';
 
@@ -19,7 +19,7 @@ fn figure(exact: f64, shown: &str) -> String {
 }
 
 /// With so many decimals and a unit. What would read as zero and is none is told as being below the last place.
-pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
+pub(crate) fn measure(exact: f64, decimals: usize, unit: &str) -> String {
     let least = last_place(decimals);
     let number = if exact > 0.0 && exact < least / 2.0 {
         format!("below {least:.decimals$}")
@@ -35,7 +35,7 @@ pub fn measure(exact: f64, decimals: usize, unit: &str) -> String {
 }
 
 /// The same, or `none`.
-pub fn measure_or(exact: Option<f64>, decimals: usize, unit: &str, none: &str) -> String {
+pub(crate) fn measure_or(exact: Option<f64>, decimals: usize, unit: &str, none: &str) -> String {
     exact.map_or_else(|| none.to_owned(), |x| measure(x, decimals, unit))
 }
 
@@ -51,14 +51,14 @@ fn rounded(exact: f64, decimals: usize) -> String {
 }
 
 /// A share as a percentage, rounded down: only a perfect one reads as 100 %.
-pub fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     // What rounding took off a share of exactly 1/100 of a percent is given back.
     let shown = (share * 1e4 + 1e-7).floor() / 100.0;
     figure(share, &format!("{:.2}{THIN}%", shown + 0.0))
 }
 
 /// A count, its thousands set apart.
-pub fn count(n: usize) -> String {
+pub(crate) fn count(n: usize) -> String {
     let digits = n.to_string();
     let mut shown = String::new();
     for (k, digit) in digits.chars().enumerate() {
@@ -71,7 +71,7 @@ pub fn count(n: usize) -> String {
 }
 
 /// A small number by its power of ten.
-pub fn tiny(exact: f64) -> String {
+pub(crate) fn tiny(exact: f64) -> String {
     if exact == 0.0 || !exact.is_finite() {
         return figure(exact, "0");
     }
@@ -81,13 +81,17 @@ pub fn tiny(exact: f64) -> String {
 }
 
 /// A place in millimetres.
-pub fn place(p: [f64; 3]) -> String {
+pub(crate) fn place(p: [f64; 3]) -> String {
     let [x, y, z] = p.map(|c| figure(c, &rounded(c, 1)));
     format!("<span class=\"place\">({x}, {y}, {z}){THIN}mm</span>")
 }
 
 /// A table that may be wider than the screen. Cells are HTML; the first of each row is its head.
-pub fn table<const N: usize>(caption: &str, heads: [&str; N], rows: &[[String; N]]) -> String {
+pub(crate) fn table<const N: usize>(
+    caption: &str,
+    heads: [&str; N],
+    rows: &[[String; N]],
+) -> String {
     let mut html =
         format!("<div class=\"scroll\"><table>\n<caption>{caption}</caption>\n<thead><tr>");
     for head in heads {
@@ -107,7 +111,7 @@ pub fn table<const N: usize>(caption: &str, heads: [&str; N], rows: &[[String; N
 }
 
 /// The same, or nothing if there are no rows.
-pub fn table_if_any<const N: usize>(
+pub(crate) fn table_if_any<const N: usize>(
     caption: &str,
     heads: [&str; N],
     rows: &[[String; N]],
@@ -120,7 +124,7 @@ pub fn table_if_any<const N: usize>(
 }
 
 /// Figures under words, side by side. Both are HTML.
-pub fn facts(facts: &[(&str, String)]) -> String {
+pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     let mut html = String::from("<dl class=\"facts\">\n");
     for (what, found) in facts {
         _ = writeln!(html, "<div><dt>{what}</dt><dd>{found}</dd></div>");
@@ -130,7 +134,7 @@ pub fn facts(facts: &[(&str, String)]) -> String {
 }
 
 /// Texts as a list.
-pub fn list(texts: &[String]) -> String {
+pub(crate) fn list(texts: &[String]) -> String {
     let mut html = String::from("<ul>\n");
     for text in texts {
         _ = writeln!(html, "<li>{}</li>", escaped(text));
@@ -140,7 +144,7 @@ pub fn list(texts: &[String]) -> String {
 }
 
 /// A sign and a word: the colour alone says nothing.
-pub fn mark(holds: bool) -> &'static str {
+pub(crate) fn mark(holds: bool) -> &'static str {
     if holds {
         "<span class=\"mark holds\">✓ holds</span>"
     } else {
@@ -149,7 +153,7 @@ pub fn mark(holds: bool) -> &'static str {
 }
 
 /// A PNG within the page; `alt` is plain text.
-pub fn picture(png: &[u8], alt: &str) -> String {
+pub(crate) fn picture(png: &[u8], alt: &str) -> String {
     format!(
         "<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
         escaped(alt),

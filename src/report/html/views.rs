@@ -13,7 +13,7 @@ use crate::steps::StepSummary;
 use std::fmt::Write as _;
 
 /// The section of the view with this number.
-pub fn view(number: usize, found: &ViewReport, shown: Option<&ViewExhibit>) -> String {
+pub(crate) fn view(number: usize, found: &ViewReport, shown: Option<&ViewExhibit>) -> String {
     let name = escaped(&found.name);
     let swatch = shown.map_or_else(String::new, |s| {
         let [r, g, b] = s.colour;

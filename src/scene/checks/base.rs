@@ -11,7 +11,7 @@ use crate::scene::text::{Reader, error_at, short, warning_at};
 use glam::DVec2;
 
 /// Every pillar must stand on the base.
-pub fn standing(reader: &mut Reader, pillars: &[Standing], base: &BasePlate) {
+pub(crate) fn standing(reader: &mut Reader, pillars: &[Standing], base: &BasePlate) {
     let mut seen = std::collections::BTreeSet::new();
     for pillar in pillars {
         let on = pillar
@@ -45,7 +45,7 @@ pub fn standing(reader: &mut Reader, pillars: &[Standing], base: &BasePlate) {
 }
 
 /// The region must lie on the base.
-pub fn region(room: &Room, base: &BasePlate) -> Option<Diagnostic> {
+pub(crate) fn region(room: &Room, base: &BasePlate) -> Option<Diagnostic> {
     let n = base.outline.len();
     let on_rim =
         |p: DVec2| (0..n).any(|i| to_segment(p, base.outline[i], base.outline[(i + 1) % n]) < 1e-6);
@@ -59,7 +59,7 @@ pub fn region(room: &Room, base: &BasePlate) -> Option<Diagnostic> {
 }
 
 /// Size of the whole forest against the printer's bed, number of pillars against patience.
-pub fn size(reader: &mut Reader, checked: &Checked, printer: &Printer) {
+pub(crate) fn size(reader: &mut Reader, checked: &Checked, printer: &Printer) {
     let (pillars, base, room) = (checked.pillars, checked.base, checked.room);
     let points = pillars
         .iter()

@@ -4,7 +4,7 @@ use crate::scene::layout::Room;
 use crate::scene::supports::{BasePlate, Standing};
 
 /// What of a forest is checked.
-pub struct Checked<'a> {
+pub(crate) struct Checked<'a> {
     pub pillars: &'a [Standing],
     pub base: Option<&'a BasePlate>,
     /// Where more pillars are to be found.

@@ -8,7 +8,7 @@ use crate::scene::views::{Eye, Stand};
 use glam::{DVec2, DVec3};
 
 /// Two views cannot share an eye.
-pub fn pairs(reader: &mut Reader, eyes: &[Eye]) {
+pub(crate) fn pairs(reader: &mut Reader, eyes: &[Eye]) {
     for (j, b) in eyes.iter().enumerate() {
         if let Some(a) = eyes[..j].iter().find(|a| a.stand.is_like(b.stand)) {
             let place = match b.stand {
@@ -25,7 +25,7 @@ pub fn pairs(reader: &mut Reader, eyes: &[Eye]) {
 }
 
 /// Every eye must be where it sees the forest.
-pub fn places(reader: &mut Reader, checked: &Checked, eyes: &[Eye]) {
+pub(crate) fn places(reader: &mut Reader, checked: &Checked, eyes: &[Eye]) {
     for eye in eyes {
         let problem = match eye.stand {
             Stand::At(at) => place(eye, at, checked, reader.unit_name),

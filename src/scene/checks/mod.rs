@@ -8,14 +8,14 @@ mod checked;
 mod eyes;
 mod pillars;
 
-pub use checked::Checked;
+pub(crate) use checked::Checked;
 
 use crate::scene::resolved::Printer;
 use crate::scene::text::Reader;
 use crate::scene::views::Eye;
 
 /// All of them.
-pub fn all(reader: &mut Reader, checked: &Checked, eyes: &[Eye], printer: &Printer) {
+pub(crate) fn all(reader: &mut Reader, checked: &Checked, eyes: &[Eye], printer: &Printer) {
     pillars::slimness(reader, checked.pillars, printer);
     if !checked.mend {
         pillars::gaps(reader, checked.pillars, printer);

@@ -8,7 +8,7 @@ use crate::scene::text::{Reader, error_at, short, warning_at};
 use std::collections::BTreeMap;
 
 /// Overlapping pillars are errors, gaps that fuse on the printer warnings: the first of each pair of places in the text.
-pub fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+pub(crate) fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
     let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
     let mut worst: BTreeMap<(usize, usize, bool), Tight> = BTreeMap::new();
     let mut work = 0u64;
@@ -154,7 +154,7 @@ fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
 }
 
 /// Pillars too thin for the nozzle or too slim to stand; once per place in the text.
-pub fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
+pub(crate) fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
     let thin = defaults::THIN_WALL_NOZZLES * printer.nozzle;
     let mut seen = std::collections::BTreeSet::new();
     for pillar in pillars {

@@ -1,7 +1,7 @@
 //! The scene language: what may be written ([`raw`]), what that means for people ([`schema`]), and texts in it.
 
-pub mod quality;
-pub mod raw;
-pub mod schema;
-pub mod template;
+pub(crate) mod quality;
+pub(crate) mod raw;
+pub(crate) mod schema;
+pub(crate) mod template;
 mod units;

@@ -14,7 +14,7 @@ macro_rules! raw {
         $(#[$doc])*
         #[derive(Debug, Default, Deserialize)]
         #[serde(default, deny_unknown_fields)]
-        pub struct $name { $(pub $field: Field<$kind>,)* }
+        pub(crate) struct $name { $(pub $field: Field<$kind>,)* }
         wanted! { $name => $wanted; }
     )* };
 }
@@ -167,7 +167,7 @@ raw! {
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[allow(non_camel_case_types, reason = "as written in scenes")]
-pub enum RawUnit {
+pub(crate) enum RawUnit {
     mm,
     cm,
     m,
@@ -176,7 +176,7 @@ pub enum RawUnit {
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per model, short-lived")]
-pub enum RawPlace {
+pub(crate) enum RawPlace {
     Fit(RawFit),
     Matrix(List<[f64; 4]>),
 }
@@ -184,7 +184,7 @@ pub enum RawPlace {
 /// Part of a model.
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per region, short-lived")]
-pub enum RawVolume {
+pub(crate) enum RawVolume {
     Box(RawBox),
     Ball(RawBall),
     Painted(String),
@@ -193,21 +193,21 @@ pub enum RawVolume {
 /// The pillars of a scene: listed, to be found, or kept in a file of their own.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "one per scene")]
-pub enum RawForest {
+pub(crate) enum RawForest {
     List(Spanned<List<RawPillars>>),
     Choice(Spanned<RawForestChoice>),
 }
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per scene")]
-pub enum RawForestChoice {
+pub(crate) enum RawForestChoice {
     Auto(RawAuto),
     File(String),
 }
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per scene")]
-pub enum RawRegion {
+pub(crate) enum RawRegion {
     Disc(RawDiscRegion),
     Rectangle(RawRectangleRegion),
     Polygon(RawPolygonRegion),
@@ -215,17 +215,17 @@ pub enum RawRegion {
 
 /// From the smallest to the largest: one number or two.
 #[derive(Clone, Copy, Debug)]
-pub struct RawRange<T>(pub [T; 2]);
+pub(crate) struct RawRange<T>(pub [T; 2]);
 
 /// One number for all views, or one for each.
 #[derive(Debug)]
-pub enum RawTolerance {
+pub(crate) enum RawTolerance {
     All(Spanned<f64>),
     Each(Spanned<List<f64>>),
 }
 
 #[derive(Debug, Deserialize)]
-pub enum RawShape {
+pub(crate) enum RawShape {
     Round(RawRound),
     Polygon(RawPolygon),
     Rectangle(RawRectangle),
@@ -234,7 +234,7 @@ pub enum RawShape {
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per entry, short-lived")]
-pub enum RawPlaces {
+pub(crate) enum RawPlaces {
     At(List<[f64; 2]>),
     Grid(RawGrid),
     Ring(RawRing),
@@ -242,21 +242,21 @@ pub enum RawPlaces {
 }
 
 #[derive(Debug, Deserialize)]
-pub enum RawBase {
+pub(crate) enum RawBase {
     Disc(RawDisc),
     Rectangle(RawSlab),
     None,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawDatum {
+pub(crate) enum RawDatum {
     Axis,
     Face,
     Surface,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawOutline {
+pub(crate) enum RawOutline {
     Free,
     OnSupport,
 }
@@ -264,7 +264,7 @@ pub enum RawOutline {
 /// What carries reliefs and is no pillar.
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "a few per scene")]
-pub enum RawSupport {
+pub(crate) enum RawSupport {
     Plate(RawPlate),
     Strips(RawStrips),
     Stairs(RawStairs),
@@ -275,14 +275,14 @@ pub enum RawSupport {
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per wave")]
-pub enum RawHeights {
+pub(crate) enum RawHeights {
     Formula(String),
     Image(RawImage),
 }
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per scene")]
-pub enum RawEnergy {
+pub(crate) enum RawEnergy {
     Normal(RawNormal),
     Curvature(RawCurvature),
     Linear,
@@ -290,45 +290,45 @@ pub enum RawEnergy {
 }
 
 #[derive(Debug, Deserialize)]
-pub enum RawRelief {
+pub(crate) enum RawRelief {
     HeightField,
     Whole(RawWhole),
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawBounded {
+pub(crate) enum RawBounded {
     Outline,
     Seen,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawCurvatureForm {
+pub(crate) enum RawCurvatureForm {
     Quadratic,
     Conic,
 }
 
 #[derive(Debug, Deserialize)]
 #[allow(clippy::large_enum_variant, reason = "one per scene")]
-pub enum RawSteps {
+pub(crate) enum RawSteps {
     Never,
     Allowed(RawStepOptions),
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawPrefer {
+pub(crate) enum RawPrefer {
     Tolerance,
     Camouflage,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawContested {
+pub(crate) enum RawContested {
     First,
     Largest,
     Error,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum RawWeight {
+pub(crate) enum RawWeight {
     Area,
     SolidAngle,
 }

@@ -6,7 +6,7 @@ use crate::support::Datum;
 use std::fmt::Write;
 
 /// One struct or choice of the language.
-pub struct Chapter {
+pub(crate) struct Chapter {
     /// As it is written: `Round(...)`, or a plain name for a struct without one.
     pub title: &'static str,
     pub about: &'static str,
@@ -14,7 +14,7 @@ pub struct Chapter {
 }
 
 /// One field: what it takes, what it is if left out, what it means.
-pub struct FieldDoc {
+pub(crate) struct FieldDoc {
     pub name: &'static str,
     pub kind: &'static str,
     /// `required` if there is no default.
@@ -69,7 +69,7 @@ pub fn schema() -> String {
 }
 
 /// All chapters in reading order.
-pub fn chapters() -> Vec<Chapter> {
+pub(crate) fn chapters() -> Vec<Chapter> {
     [
         scene_chapters(),
         pillar_chapters(),

@@ -4,7 +4,7 @@ use super::raw::RawUnit;
 
 impl RawUnit {
     /// Millimetres per unit, and its name.
-    pub fn measure(self) -> (f64, &'static str) {
+    pub(crate) fn measure(self) -> (f64, &'static str) {
         match self {
             Self::mm => (1.0, "mm"),
             Self::cm => (10.0, "cm"),

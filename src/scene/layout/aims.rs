@@ -7,7 +7,7 @@ use crate::scene::resolved::Printer;
 use crate::scene::text::{Field, Reader, Span, Spanned, error_at, short, warning_at};
 
 /// A range the right way round.
-pub fn range(
+pub(crate) fn range(
     reader: &mut Reader,
     field: &Field<RawRange<f64>>,
     name: &str,
@@ -38,7 +38,11 @@ fn ordered<T: PartialOrd + std::fmt::Display>(
     None
 }
 
-pub fn count(reader: &mut Reader, field: &Field<RawRange<u32>>, standing: usize) -> [usize; 2] {
+pub(crate) fn count(
+    reader: &mut Reader,
+    field: &Field<RawRange<u32>>,
+    standing: usize,
+) -> [usize; 2] {
     let [fewest, most] = defaults::COUNT.map(|n| n as usize);
     let default = [fewest, most.max(standing)];
     let Some((&RawRange(range), span)) = reader.given(field) else {
@@ -64,7 +68,7 @@ pub fn count(reader: &mut Reader, field: &Field<RawRange<u32>>, standing: usize)
 }
 
 /// Warns of a gap that no printer leaves open.
-pub fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
+pub(crate) fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
     let least = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
     if gap < least {
         let text = format!(
@@ -78,7 +82,11 @@ pub fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
 }
 
 /// One number for every view.
-pub fn tolerance(reader: &mut Reader, field: &Field<RawTolerance>, views: usize) -> Vec<f64> {
+pub(crate) fn tolerance(
+    reader: &mut Reader,
+    field: &Field<RawTolerance>,
+    views: usize,
+) -> Vec<f64> {
     let name = "eye_tolerance";
     let of = |reader: &mut Reader, number: &Spanned<f64>| {
         let span = reader.span(number);
@@ -108,7 +116,7 @@ pub fn tolerance(reader: &mut Reader, field: &Field<RawTolerance>, views: usize)
     }
 }
 
-pub fn matters(reader: &mut Reader, field: &Field<RawMatters>) -> Matters {
+pub(crate) fn matters(reader: &mut Reader, field: &Field<RawMatters>) -> Matters {
     let Some((raw, _)) = reader.given(field) else {
         return defaults::MATTERS;
     };
@@ -125,7 +133,7 @@ pub fn matters(reader: &mut Reader, field: &Field<RawMatters>) -> Matters {
     }
 }
 
-pub fn freedom(reader: &mut Reader, field: &Field<RawFreedom>) -> Freedom {
+pub(crate) fn freedom(reader: &mut Reader, field: &Field<RawFreedom>) -> Freedom {
     let Some((raw, _)) = reader.given(field) else {
         return Freedom::NONE;
     };

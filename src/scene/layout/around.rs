@@ -4,7 +4,7 @@ use crate::scene::request::{Purpose, ReadFile};
 use crate::scene::resolved::Printer;
 
 /// What of the scene the pillars depend on.
-pub struct Around<'a> {
+pub(crate) struct Around<'a> {
     pub read: ReadFile<'a>,
     pub purpose: Purpose,
     pub printer: &'a Printer,

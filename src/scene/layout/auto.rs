@@ -17,7 +17,7 @@ use glam::DVec2;
 use std::collections::BTreeMap;
 
 /// Pillars that stay, as they will be written.
-pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<PillarEntry> {
+pub(crate) fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<PillarEntry> {
     match reader.given(&raw.fixed) {
         Some((list, _)) => {
             let entries = entries(reader, list, depth);
@@ -29,7 +29,7 @@ pub fn fixed(reader: &mut Reader, raw: &RawAuto, depth: &Wish) -> Vec<PillarEntr
 
 /// The brief of an `Auto` at `span`, and the places of its allowed shapes. Its pillars may stand in `region` besides the `fixed`
 /// ones.
-pub fn brief(
+pub(crate) fn brief(
     reader: &mut Reader,
     (raw, span): (&RawAuto, &Span),
     region: Vec<DVec2>,
@@ -69,7 +69,7 @@ pub fn brief(
 }
 
 /// The brief of a list of pillars that are to be moved as little as can be, in `region`.
-pub fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Around) -> Brief {
+pub(crate) fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Around) -> Brief {
     let standing: usize = entries.iter().map(|e| e.spots.len()).sum();
     let mut brief = Brief {
         region: Region::new(region),
@@ -128,7 +128,7 @@ fn shape(section: &CrossSection, outline: Vec<DVec2>, heights: [f64; 2], layer: 
 }
 
 /// What the checks want to know of a brief whose region stands at `span`, and its shapes at `spans`.
-pub fn room(brief: &Brief, span: &Span, spans: &[Span]) -> Room {
+pub(crate) fn room(brief: &Brief, span: &Span, spans: &[Span]) -> Room {
     let allowed = &brief.shapes[..brief.allowed];
     let sample = |(shape, span): (&Shape, &Span)| Standing {
         name: format!("a pillar with `{}`", shape.written),

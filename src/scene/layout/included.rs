@@ -15,7 +15,7 @@ use crate::scene::text::lexer;
 use crate::scene::text::{Field, List, Reader, Span, Spanned, error_at, nearest, printable};
 
 /// A layout file.
-pub struct Included {
+pub(crate) struct Included {
     file: String,
     text: String,
     /// Where the scene's text ends and this one goes on, bytes.
@@ -30,7 +30,7 @@ const LAYOUT: &str = "layout";
 const START: &str = "`pillarforest plan` writes a layout";
 
 /// Reads a layout file; its problems are added to the scene's. `depth` is the scene's.
-pub fn included(
+pub(crate) fn included(
     reader: &mut Reader,
     file: &str,
     bytes: Vec<u8>,
@@ -72,7 +72,7 @@ pub fn included(
 
 impl Included {
     /// A problem of the checks with its place in this file, if that is where it lies.
-    pub fn told(&self, problem: Diagnostic) -> Diagnostic {
+    pub(crate) fn told(&self, problem: Diagnostic) -> Diagnostic {
         match &problem.place {
             Some(Place::Scene(span)) if span.start >= self.shift => {
                 let span = span.start - self.shift..span.end - self.shift;

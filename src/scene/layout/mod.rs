@@ -5,12 +5,12 @@
 
 mod aims;
 mod around;
-pub mod auto;
-pub mod included;
-pub mod laid;
-pub mod region;
+pub(crate) mod auto;
+pub(crate) mod included;
+pub(crate) mod laid;
+pub(crate) mod region;
 mod written;
 
-pub use around::Around;
-pub use region::Room;
-pub use written::as_written;
+pub(crate) use around::Around;
+pub(crate) use region::Room;
+pub(crate) use written::as_written;

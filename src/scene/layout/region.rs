@@ -7,7 +7,7 @@ use crate::scene::text::{Reader, Span, short};
 use glam::DVec2;
 
 /// The room of planned pillars, for the checks.
-pub struct Room {
+pub(crate) struct Room {
     /// Counter-clockwise, millimetres.
     pub region: Vec<DVec2>,
     /// Highest top that a pillar may have.
@@ -18,7 +18,7 @@ pub struct Room {
 }
 
 /// What a scene says of the region.
-pub fn region(reader: &mut Reader, raw: &RawRegion, span: &Span) -> Option<Vec<DVec2>> {
+pub(crate) fn region(reader: &mut Reader, raw: &RawRegion, span: &Span) -> Option<Vec<DVec2>> {
     let centre = |reader: &mut Reader, field| {
         let point = reader.point_field(field, "centre");
         point.map_or(DVec2::ZERO, |(p, _)| p.into())
@@ -55,12 +55,12 @@ fn disc(radius: f64) -> Vec<DVec2> {
 }
 
 /// The region if neither it nor a base's size is given.
-pub fn usual() -> Vec<DVec2> {
+pub(crate) fn usual() -> Vec<DVec2> {
     disc(defaults::REGION_RADIUS)
 }
 
 /// A disc around these points, with room for moves.
-pub fn around(points: &[DVec2]) -> Vec<DVec2> {
+pub(crate) fn around(points: &[DVec2]) -> Vec<DVec2> {
     let Some((lo, hi)) = shapes::bounds(points) else {
         return usual();
     };
@@ -74,7 +74,7 @@ pub fn around(points: &[DVec2]) -> Vec<DVec2> {
 }
 
 /// A base's outline without its rim.
-pub fn on_base(reader: &mut Reader, base: &BasePlate, span: &Span) -> Vec<DVec2> {
+pub(crate) fn on_base(reader: &mut Reader, base: &BasePlate, span: &Span) -> Vec<DVec2> {
     let rim = defaults::REGION_RIM;
     let width = shapes::narrowest(&base.outline);
     if width > 2.5 * rim {

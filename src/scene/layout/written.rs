@@ -5,7 +5,7 @@ use crate::scene::supports::pillars::PillarEntry;
 use crate::support::Layer;
 
 /// The entry with its numbers rounded to what layout files hold.
-pub fn as_written(mut entry: PillarEntry) -> PillarEntry {
+pub(crate) fn as_written(mut entry: PillarEntry) -> PillarEntry {
     let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
     let place = |v| rounded(v, defaults::PLACE_DECIMALS);
     let section = entry.section.with_lengths(length);
@@ -21,7 +21,7 @@ pub fn as_written(mut entry: PillarEntry) -> PillarEntry {
 }
 
 /// A layer as layout files hold it.
-pub fn layer_as_written(layer: Layer) -> Layer {
+pub(crate) fn layer_as_written(layer: Layer) -> Layer {
     let length = |v| rounded(v, defaults::LENGTH_DECIMALS);
     layer.resized(
         length(layer.front),
@@ -31,7 +31,7 @@ pub fn layer_as_written(layer: Layer) -> Layer {
 }
 
 /// Rounded to `decimals` decimals; never -0.
-pub fn rounded(value: f64, decimals: i32) -> f64 {
+pub(crate) fn rounded(value: f64, decimals: i32) -> f64 {
     let unit = 10f64.powi(decimals);
     (value * unit).round() / unit + 0.0
 }

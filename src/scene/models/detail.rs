@@ -8,13 +8,13 @@ use crate::view::Marks;
 use glam::DVec2;
 
 /// The most vertices that a scene or one of its models asks for.
-pub fn detail(reader: &mut Reader, field: &Field<u32>) -> Option<usize> {
+pub(crate) fn detail(reader: &mut Reader, field: &Field<u32>) -> Option<usize> {
     let (most, _) = reader.count(field, "detail", defaults::DETAILS)?;
     Some(most as usize)
 }
 
 /// A model made smaller.
-pub struct Lowered {
+pub(crate) struct Lowered {
     pub mesh: TriMesh,
     /// As if the file had held this mesh.
     pub original: Original,
@@ -24,7 +24,12 @@ pub struct Lowered {
 }
 
 /// A model with at most `most` vertices, as far as that goes; `None` if it has no more anyway or cannot be simplified.
-pub fn lowered(mesh: &TriMesh, original: &Original, marks: &Marks, most: usize) -> Option<Lowered> {
+pub(crate) fn lowered(
+    mesh: &TriMesh,
+    original: &Original,
+    marks: &Marks,
+    most: usize,
+) -> Option<Lowered> {
     if mesh.vertices.len() <= most {
         return None;
     }

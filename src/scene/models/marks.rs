@@ -23,7 +23,7 @@ enum Volume {
 
 /// A region as the scene describes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MarkedRegion {
+pub(crate) struct MarkedRegion {
     volume: Volume,
     weight: f64,
     free: bool,
@@ -35,7 +35,10 @@ pub struct MarkedRegion {
 const INSIDE: f64 = 0.5;
 
 /// What a scene says of a model's regions; those that are wrong are noted and left out.
-pub fn regions(reader: &mut Reader, field: &Field<List<RawModelRegion>>) -> Vec<MarkedRegion> {
+pub(crate) fn regions(
+    reader: &mut Reader,
+    field: &Field<List<RawModelRegion>>,
+) -> Vec<MarkedRegion> {
     let Some((list, span)) = reader.given(field) else {
         return Vec::new();
     };
@@ -119,7 +122,7 @@ fn place(
 }
 
 /// What all regions together say of a model's vertices; `name` and `file` are for messages.
-pub fn marks(
+pub(crate) fn marks(
     reader: &mut Reader,
     regions: &[MarkedRegion],
     model: &intake::Admitted,

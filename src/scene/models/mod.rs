@@ -8,6 +8,6 @@
 mod detail;
 mod marks;
 mod model;
-pub mod placing;
+pub(crate) mod placing;
 
-pub use model::{Model, load, lower, models};
+pub(crate) use model::{Model, load, lower, models};

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// A model as the scene describes it.
-pub struct Model {
+pub(crate) struct Model {
     pub name: String,
     pub file: String,
     pub file_span: Span,
@@ -37,7 +37,7 @@ pub struct Model {
 }
 
 /// The models as written, before their files are read; `None` if any could not be read.
-pub fn models(reader: &mut Reader, raw: &RawScene, scene_span: &Span) -> Option<Vec<Model>> {
+pub(crate) fn models(reader: &mut Reader, raw: &RawScene, scene_span: &Span) -> Option<Vec<Model>> {
     let mut models = listed(reader, &raw.models, scene_span);
     if let Some(most) = detail::detail(reader, &raw.detail) {
         let all = models.iter_mut().flatten();
@@ -110,7 +110,7 @@ fn model(reader: &mut Reader, raw: &RawModel, span: &Span) -> Option<Model> {
 }
 
 /// Reads a model's file; its problems point at the file's name in the scene unless they know a better place.
-pub fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
+pub(crate) fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     let parsed =
         read(&model.file).and_then(|bytes| intake::load_original(&model.file, &bytes, false));
     let Some(loaded) = reader.read(parsed, &model.file_span) else {
@@ -128,7 +128,7 @@ pub fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
 }
 
 /// Makes models smaller that have too many vertices; tells what they could not do or keep.
-pub fn lower(reader: &mut Reader, models: &mut [Model], output: &Output) {
+pub(crate) fn lower(reader: &mut Reader, models: &mut [Model], output: &Output) {
     let remarks: Vec<Option<Diagnostic>> = models
         .par_iter_mut()
         .map(|model| model.lower(output))

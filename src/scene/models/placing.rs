@@ -11,7 +11,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3};
 
 /// How large a fitted model becomes, millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Size {
+pub(crate) enum Size {
     /// As the file has it.
     AsIs,
     Height(f64),
@@ -23,7 +23,7 @@ pub enum Size {
 
 /// A fitted model: everything but the eye it is turned to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fit {
+pub(crate) struct Fit {
     pub size: Size,
     /// Unit axes of the file.
     pub up: DVec3,
@@ -38,14 +38,14 @@ pub struct Fit {
 
 /// How a model is placed.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Placing {
+pub(crate) enum Placing {
     Matrix(DMat4),
     Fit(Fit),
 }
 
 impl Placing {
     /// The same, looking along `way` where it would turn to an eye.
-    pub fn or_facing(self, way: DVec2) -> Self {
+    pub(crate) fn or_facing(self, way: DVec2) -> Self {
         match self {
             Placing::Fit(fit) => Placing::Fit(Fit {
                 facing: fit.facing.or(Some(way)),
@@ -58,7 +58,7 @@ impl Placing {
     /// The matrix from the file's coordinates to millimetres for an eye.
     ///
     /// `unit` is millimetres per unit of the file. A matrix is taken as written: it includes the unit.
-    pub fn matrix(&self, mesh: &TriMesh, unit: f64, eye: DVec3) -> DMat4 {
+    pub(crate) fn matrix(&self, mesh: &TriMesh, unit: f64, eye: DVec3) -> DMat4 {
         match self {
             Placing::Matrix(matrix) => *matrix,
             Placing::Fit(fit) => fit.matrix(mesh, unit, (eye - fit.at).truncate()),
@@ -66,7 +66,7 @@ impl Placing {
     }
 
     /// The same for an eye at infinity, which in plan stands along `from`.
-    pub fn facing(&self, mesh: &TriMesh, unit: f64, from: DVec2) -> DMat4 {
+    pub(crate) fn facing(&self, mesh: &TriMesh, unit: f64, from: DVec2) -> DMat4 {
         match self {
             Placing::Matrix(matrix) => *matrix,
             Placing::Fit(fit) => fit.matrix(mesh, unit, from),
@@ -112,7 +112,10 @@ fn bounds(mesh: &TriMesh, turn: DMat3) -> Option<(DVec3, DVec3)> {
 }
 
 /// Reads a placing; a missing one fits the model as it is.
-pub fn placing(reader: &mut Reader, field: &Field<RawPlace>) -> Option<(Placing, Option<Span>)> {
+pub(crate) fn placing(
+    reader: &mut Reader,
+    field: &Field<RawPlace>,
+) -> Option<(Placing, Option<Span>)> {
     let bare = RawFit::default();
     match reader.given(field) {
         None if matches!(field, Field::Given(_)) => None,
@@ -262,13 +265,13 @@ fn matrix(reader: &mut Reader, list: &List<[f64; 4]>, span: &Span) -> Option<DMa
 }
 
 /// Lowest and highest corner of the box around all models.
-pub fn extent(models: &[PlacedModel]) -> Option<(DVec3, DVec3)> {
+pub(crate) fn extent(models: &[PlacedModel]) -> Option<(DVec3, DVec3)> {
     let bounds = models.iter().filter_map(|m| m.mesh.bounds());
     bounds.reduce(|(l, h), (lo, hi)| (l.min(lo), h.max(hi)))
 }
 
 /// Changes the models of one view, all together about the middle of their underside.
-pub fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
+pub(crate) fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
     let Some((lo, hi)) = extent(models).filter(|_| *adjustment != Adjustment::NONE) else {
         return;
     };
@@ -280,7 +283,7 @@ pub fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
 }
 
 /// Warnings and errors about the size of a placed model.
-pub fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnostic> {
+pub(crate) fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnostic> {
     let (lo, hi) = mesh.bounds()?;
     let largest = (hi - lo).max_element();
     let say = |text: &str, help: &str| {

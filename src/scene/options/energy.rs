@@ -11,7 +11,7 @@ use crate::scene::language::raw::{
 use crate::scene::text::{Field, Reader};
 
 /// What is minimised, and how.
-pub fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
+pub(crate) fn energy(reader: &mut Reader, field: &Field<RawEnergy>) -> Energy {
     match reader.given(field).map(|(energy, _)| energy) {
         None => defaults::ENERGY,
         Some(RawEnergy::Normal(raw)) => {
@@ -71,7 +71,7 @@ fn curvature(reader: &mut Reader, raw: &RawCurvature) -> CurvatureOptions {
 }
 
 /// Who gets surface that two views want.
-pub fn contested(reader: &mut Reader, field: &Field<RawContested>) -> Contested {
+pub(crate) fn contested(reader: &mut Reader, field: &Field<RawContested>) -> Contested {
     match reader.given(field) {
         Some((RawContested::First, _)) => Contested::First,
         Some((RawContested::Largest, _)) => Contested::Largest,

@@ -2,7 +2,7 @@
 //!
 //! Each file takes its own fields of the scene and gives the options of the stage that they are for.
 
-pub mod energy;
-pub mod printing;
-pub mod steps;
-pub mod whole;
+pub(crate) mod energy;
+pub(crate) mod printing;
+pub(crate) mod steps;
+pub(crate) mod whole;

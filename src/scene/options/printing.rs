@@ -6,7 +6,7 @@ use crate::scene::resolved::{Output, Printer};
 use crate::scene::text::{Field, Reader};
 
 /// The printer the checks have in mind.
-pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
+pub(crate) fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
     let Some((raw, _)) = reader.given(field) else {
         return defaults::PRINTER;
     };
@@ -31,7 +31,7 @@ pub fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
 }
 
 /// Which files are written.
-pub fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
+pub(crate) fn output(reader: &mut Reader, field: &Field<RawOutput>) -> Output {
     let Some((raw, _)) = reader.given(field) else {
         return defaults::OUTPUT;
     };

@@ -7,7 +7,7 @@ use crate::scene::text::{Field, Reader};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 
 /// Whether the surface may tear, and how; only the normal energy can.
-pub fn steps(
+pub(crate) fn steps(
     reader: &mut Reader,
     field: &Field<RawEnergy>,
     pillars: usize,

@@ -8,7 +8,7 @@ use crate::scene::text::{Field, Reader, Span, error_at, short};
 use crate::support::{SUNK_MM, Support};
 
 /// What of whole meshes is held; `None`: reliefs are height fields.
-pub fn whole(reader: &mut Reader, raw: &RawScene) -> Option<Bounded> {
+pub(crate) fn whole(reader: &mut Reader, raw: &RawScene) -> Option<Bounded> {
     let (relief, span) = reader.given(&raw.relief)?;
     let RawRelief::Whole(whole) = relief else {
         return None;
@@ -51,7 +51,7 @@ fn check_energy(reader: &mut Reader, raw: &RawScene, relief: &Span) {
 }
 
 /// Whole meshes stand on bodies, whose layers end at their surface.
-pub fn check_supports(
+pub(crate) fn check_supports(
     reader: &mut Reader,
     raw: &RawScene,
     whole: Option<Bounded>,
@@ -85,7 +85,7 @@ pub fn check_supports(
 }
 
 /// A whole mesh becomes a solid.
-pub fn check_closed(reader: &mut Reader, mesh: &TriMesh, name: &str, file: &Span) {
+pub(crate) fn check_closed(reader: &mut Reader, mesh: &TriMesh, name: &str, file: &Span) {
     let unpaired = |e: &&[HalfEdge]| !matches!(e, [a, b] if a.forward != b.forward);
     let open = Edges::new(mesh).iter().filter(unpaired).count();
     if open > 0 {
@@ -97,7 +97,7 @@ pub fn check_closed(reader: &mut Reader, mesh: &TriMesh, name: &str, file: &Span
 }
 
 /// The outlines of whole meshes lie on their supports.
-pub fn hold_outlines(supports: &mut [Support]) {
+pub(crate) fn hold_outlines(supports: &mut [Support]) {
     let layers = supports.iter_mut().filter_map(|s| s.layer.as_mut());
     layers.for_each(|layer| layer.hull = true);
 }

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 /// The base, by default a disc that reaches beyond everything it is to hold: corners of outlines. `loose` are what falls apart without
 /// it, if anything.
-pub fn base(
+pub(crate) fn base(
     reader: &mut Reader,
     field: &Field<RawBase>,
     held: &[DVec2],
@@ -29,7 +29,7 @@ pub fn base(
 }
 
 /// Whether the scene gives the base's size, so that it does not depend on what it holds.
-pub fn has_size(field: &Field<RawBase>) -> bool {
+pub(crate) fn has_size(field: &Field<RawBase>) -> bool {
     let given = |field: &Field<f64>| matches!(field, Field::Given(_));
     match field {
         Field::Given(base) => match &base.value {

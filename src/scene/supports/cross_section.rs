@@ -11,7 +11,7 @@ use glam::DVec2;
 
 /// A cross-section around the axis of its pillar; lengths in millimetres, turns in degrees.
 #[derive(Clone, Debug, PartialEq)]
-pub enum CrossSection {
+pub(crate) enum CrossSection {
     Round { radius: f64, facets: u32 },
     Polygon { sides: u32, radius: f64, turn: f64 },
     Rectangle { width: f64, depth: f64, turn: f64 },
@@ -19,7 +19,11 @@ pub enum CrossSection {
 }
 
 /// What the scene says of a section.
-pub fn cross_section(reader: &mut Reader, shape: &RawShape, span: &Span) -> Option<CrossSection> {
+pub(crate) fn cross_section(
+    reader: &mut Reader,
+    shape: &RawShape,
+    span: &Span,
+) -> Option<CrossSection> {
     match shape {
         RawShape::Round(raw) => {
             reader.need(&raw.radius, "radius", "this Round", span);
@@ -81,7 +85,11 @@ fn turn(reader: &mut Reader, field: &Field<f64>) -> f64 {
 }
 
 /// Corners of a polygon, millimetres; not too many of them.
-pub fn points(reader: &mut Reader, list: &List<[f64; 2]>, span: &Span) -> Option<Vec<DVec2>> {
+pub(crate) fn points(
+    reader: &mut Reader,
+    list: &List<[f64; 2]>,
+    span: &Span,
+) -> Option<Vec<DVec2>> {
     if list.len() > defaults::MOST_POINTS {
         reader.error(
             span,
@@ -109,7 +117,7 @@ impl CrossSection {
     ///
     /// # Errors
     /// Why the points of a profile are no simple polygon.
-    pub fn outline(&self) -> Result<Vec<DVec2>, String> {
+    pub(crate) fn outline(&self) -> Result<Vec<DVec2>, String> {
         Ok(match self {
             Self::Round { radius, facets } => shapes::regular(*facets, *radius, 0.0),
             Self::Polygon {
@@ -127,12 +135,12 @@ impl CrossSection {
         })
     }
 
-    pub fn is_round(&self) -> bool {
+    pub(crate) fn is_round(&self) -> bool {
         matches!(self, Self::Round { .. })
     }
 
     /// The section with `of` applied to its lengths; counts and turns stay.
-    pub fn with_lengths(&self, of: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn with_lengths(&self, of: impl Fn(f64) -> f64) -> Self {
         let mut section = self.clone();
         match &mut section {
             Self::Round { radius, .. } | Self::Polygon { radius, .. } => *radius = of(*radius),
@@ -145,7 +153,7 @@ impl CrossSection {
     }
 
     /// As scenes in millimetres write it: `Round(radius: 4)`.
-    pub fn written(&self) -> String {
+    pub(crate) fn written(&self) -> String {
         let turned = |turn: &f64| match turn {
             0.0 => String::new(),
             turn => format!(", turn: {turn}"),
@@ -172,6 +180,6 @@ impl CrossSection {
 }
 
 /// `(1, -2.5)`.
-pub fn point(p: &DVec2) -> String {
+pub(crate) fn point(p: &DVec2) -> String {
     format!("({}, {})", p.x, p.y)
 }

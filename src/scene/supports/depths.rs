@@ -9,7 +9,7 @@ use glam::DVec2;
 
 /// A depth layer as far as the scene gives it, millimetres.
 #[derive(Clone, Default)]
-pub struct Wish {
+pub(crate) struct Wish {
     /// Where the scene asks for it.
     span: Option<Span>,
     datum: Option<(Datum, &'static str)>,
@@ -22,7 +22,7 @@ pub struct Wish {
 
 impl Wish {
     /// The same for another text, in which it has no place.
-    pub fn placeless(&self) -> Self {
+    pub(crate) fn placeless(&self) -> Self {
         Self {
             span: None,
             ..self.clone()
@@ -31,7 +31,7 @@ impl Wish {
 }
 
 /// What `raw` asks for; fields left out are taken from `under`.
-pub fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> Wish {
+pub(crate) fn layer(reader: &mut Reader, raw: &RawDepth, span: &Span, under: &Wish) -> Wish {
     let datum = reader.given(&raw.from).map(|(from, _)| match from {
         RawDatum::Axis => (Datum::Plane, "Axis"),
         RawDatum::Face => (Datum::Plane, "Face"),
@@ -103,7 +103,7 @@ fn through(reader: &mut Reader, raw: &RawDepth) -> Option<bool> {
 }
 
 /// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the eyes.
-pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
+pub(crate) fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
     let span = wish.span.as_ref().unwrap_or(entry);
     let through = wish.through == Some(true);
     let usual = match flat && !through {
@@ -145,7 +145,7 @@ pub fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Spa
 }
 
 /// The layer of a pillar: defaults filled in; an error if it does not leave the pillar standing. `entry` is the pillars' place.
-pub fn settled(
+pub(crate) fn settled(
     reader: &mut Reader,
     profile: &[DVec2],
     round: bool,

@@ -5,14 +5,14 @@
 //! `pillars` puts entries up at their `places`, with `cross_section`s and `depths`; `bases` is the base under them; `standing` is what
 //! both are until they become solids. `bodies` are all other supports, one file a form. `shapes` are outlines in plan.
 
-pub mod bases;
-pub mod bodies;
-pub mod cross_section;
-pub mod depths;
-pub mod pillars;
+pub(crate) mod bases;
+pub(crate) mod bodies;
+pub(crate) mod cross_section;
+pub(crate) mod depths;
+pub(crate) mod pillars;
 mod places;
-pub mod shapes;
+pub(crate) mod shapes;
 mod standing;
 
-pub use places::Spot;
-pub use standing::{BasePlate, Standing};
+pub(crate) use places::Spot;
+pub(crate) use standing::{BasePlate, Standing};

@@ -12,7 +12,7 @@ use crate::support::{Layer, Support, SupportKind};
 use glam::DVec2;
 
 /// One entry of the scene's pillars, ready to be put up.
-pub struct PillarEntry {
+pub(crate) struct PillarEntry {
     pub name: String,
     pub section: CrossSection,
     /// Around the origin, counter-clockwise.
@@ -23,7 +23,7 @@ pub struct PillarEntry {
 }
 
 /// Pillars of one kind on their places.
-pub struct Batch<'a> {
+pub(crate) struct Batch<'a> {
     pub name: &'a str,
     /// Around the origin, counter-clockwise.
     pub outline: &'a [DVec2],
@@ -34,7 +34,7 @@ pub struct Batch<'a> {
 }
 
 impl PillarEntry {
-    pub fn batch(&self) -> Batch<'_> {
+    pub(crate) fn batch(&self) -> Batch<'_> {
         Batch {
             name: &self.name,
             outline: &self.outline,
@@ -48,7 +48,7 @@ impl PillarEntry {
 
 /// Pillars in place and the base under them: for the checks and, with the layers, the solids.
 #[derive(Default)]
-pub struct Colonnade {
+pub(crate) struct Colonnade {
     pub pillars: Vec<Standing>,
     pub base: Option<BasePlate>,
     layers: Vec<Layer>,
@@ -56,7 +56,7 @@ pub struct Colonnade {
 
 impl Colonnade {
     /// Puts pillars up and numbers them: `p1`, `p2`, ... or the batch's own name with a number.
-    pub fn of<'a>(batches: impl IntoIterator<Item = Batch<'a>>) -> Self {
+    pub(crate) fn of<'a>(batches: impl IntoIterator<Item = Batch<'a>>) -> Self {
         let mut found = Self::default();
         let mut counters = std::collections::BTreeMap::<&str, usize>::new();
         for batch in batches {
@@ -81,13 +81,13 @@ impl Colonnade {
     }
 
     /// Corners of all pillars.
-    pub fn corners(&self) -> Vec<DVec2> {
+    pub(crate) fn corners(&self) -> Vec<DVec2> {
         let profiles = self.pillars.iter().map(|p| &p.profile);
         profiles.flatten().copied().collect()
     }
 
     /// The solids: pillars in order, the base last.
-    pub fn solids(self) -> Vec<Support> {
+    pub(crate) fn solids(self) -> Vec<Support> {
         let thickness = self.base.as_ref().map_or(0.0, |b| b.thickness);
         let bottom = sunk(thickness);
         let pillars = self
@@ -121,10 +121,10 @@ impl Colonnade {
 }
 
 /// The name of entries without one: its pillars are p1, p2, ...
-pub const UNNAMED: &str = "p";
+pub(crate) const UNNAMED: &str = "p";
 
 /// Largest distance of an outline from the origin.
-pub fn reach(outline: &[DVec2]) -> f64 {
+pub(crate) fn reach(outline: &[DVec2]) -> f64 {
     outline.iter().map(|p| p.length()).fold(0.0, f64::max)
 }
 
@@ -134,7 +134,11 @@ fn sunk(thickness: f64) -> f64 {
 }
 
 /// The entries that can be read; `depth` is what holds where they say nothing.
-pub fn entries(reader: &mut Reader, list: &List<RawPillars>, depth: &Wish) -> Vec<PillarEntry> {
+pub(crate) fn entries(
+    reader: &mut Reader,
+    list: &List<RawPillars>,
+    depth: &Wish,
+) -> Vec<PillarEntry> {
     let mut entries = Vec::new();
     let (mut total, mut corners, mut pairs) = (0u64, 0u64, 0u64);
     for item in list {
@@ -174,7 +178,7 @@ pub fn entries(reader: &mut Reader, list: &List<RawPillars>, depth: &Wish) -> Ve
 }
 
 /// As [`entries`], where there must be at least one.
-pub fn some_entries(
+pub(crate) fn some_entries(
     reader: &mut Reader,
     list: &List<RawPillars>,
     span: &Span,

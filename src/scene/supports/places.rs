@@ -8,13 +8,13 @@ use std::f64::consts::TAU;
 
 /// A pillar's place and where the scene says so.
 #[derive(Clone, Debug)]
-pub struct Spot {
+pub(crate) struct Spot {
     pub at: DVec2,
     pub span: Span,
 }
 
 /// The places of one entry, or `None` after an error. Refuses more than [`defaults::MOST_PILLARS`] before making any.
-pub fn spots(reader: &mut Reader, places: &RawPlaces, span: &Span) -> Option<Vec<Spot>> {
+pub(crate) fn spots(reader: &mut Reader, places: &RawPlaces, span: &Span) -> Option<Vec<Spot>> {
     let points = match places {
         RawPlaces::At(list) => return listed(reader, list, span),
         RawPlaces::Grid(grid) => lattice(reader, grid, span)?,

@@ -1,6 +1,6 @@
 //! Outlines in the ground plane and the upright prisms over them.
 
-pub use crate::geom::{contains, gap, narrowest, to_segment};
+pub(crate) use crate::geom::{contains, gap, narrowest, to_segment};
 use crate::geom::{polygon_area, segment_crossing};
 use crate::mesh::TriMesh;
 use crate::mesh::polygon::triangulate_outline;
@@ -8,14 +8,14 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// A regular polygon of `sides` corners at `radius` around the origin, the first at angle `turn` (radians), counter-clockwise.
-pub fn regular(sides: u32, radius: f64, turn: f64) -> Vec<DVec2> {
+pub(crate) fn regular(sides: u32, radius: f64, turn: f64) -> Vec<DVec2> {
     (0..sides)
         .map(|i| radius * DVec2::from_angle(turn + TAU * f64::from(i) / f64::from(sides)))
         .collect()
 }
 
 /// A rectangle around the origin, turned by `turn` radians, counter-clockwise.
-pub fn rectangle(width: f64, depth: f64, turn: f64) -> Vec<DVec2> {
+pub(crate) fn rectangle(width: f64, depth: f64, turn: f64) -> Vec<DVec2> {
     let half = DVec2::new(width, depth) / 2.0;
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     corners
@@ -28,7 +28,7 @@ pub fn rectangle(width: f64, depth: f64, turn: f64) -> Vec<DVec2> {
 ///
 /// # Errors
 /// Why it is not a simple polygon of some area.
-pub fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
+pub(crate) fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
@@ -71,7 +71,7 @@ pub fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
 }
 
 /// The closed prism over a simple counter-clockwise polygon, outward oriented. Vertices: the ring at the bottom, then the ring at the top.
-pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
+pub(crate) fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
     let n = profile.len() as u32;
     let ring = |z: f64| profile.iter().map(move |p| DVec3::new(p.x, p.y, z));
     let vertices = ring(bottom).chain(ring(top)).collect();
@@ -89,7 +89,7 @@ pub fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
 }
 
 /// Distance of a point from a polygon, 0 inside.
-pub fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
+pub(crate) fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
     if contains(polygon, p) {
         return 0.0;
     }
@@ -100,7 +100,7 @@ pub fn gap_to_point(polygon: &[DVec2], p: DVec2) -> f64 {
 }
 
 /// Lowest and highest corner of a box around the points.
-pub fn bounds(points: &[DVec2]) -> Option<(DVec2, DVec2)> {
+pub(crate) fn bounds(points: &[DVec2]) -> Option<(DVec2, DVec2)> {
     let first = *points.first()?;
     Some(
         points

@@ -4,7 +4,7 @@ use crate::scene::text::Span;
 use glam::DVec2;
 
 /// A pillar on its place.
-pub struct Standing {
+pub(crate) struct Standing {
     pub name: String,
     pub axis: DVec2,
     pub profile: Vec<DVec2>,
@@ -17,7 +17,7 @@ pub struct Standing {
 }
 
 /// The base; its top is z = 0.
-pub struct BasePlate {
+pub(crate) struct BasePlate {
     pub outline: Vec<DVec2>,
     pub thickness: f64,
     pub span: Option<Span>,

@@ -11,7 +11,7 @@ use crate::scene::defaults;
 use serde::de::DeserializeOwned;
 
 /// Text that reads as RON as far as its brackets go.
-pub struct Document<'a> {
+pub(crate) struct Document<'a> {
     pub text: &'a str,
     /// A "scene" or a "layout".
     pub what: &'static str,
@@ -23,7 +23,7 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// No text or too much of it, strings or brackets that are not closed. `start` is the help on where to start from.
-    pub fn new(text: &'a str, what: &'static str, start: &str) -> Result<Self, Diagnostic> {
+    pub(crate) fn new(text: &'a str, what: &'static str, start: &str) -> Result<Self, Diagnostic> {
         if text.trim().is_empty() {
             return Err(Diagnostic::error(format!("the {what} file is empty")).help(start));
         }
@@ -47,7 +47,7 @@ impl<'a> Document<'a> {
     }
 
     /// The first character of the value, behind attributes.
-    pub fn opening(&self) -> Option<u8> {
+    pub(crate) fn opening(&self) -> Option<u8> {
         let first = tree::skip_attribute(self.text).first()?.span.start;
         self.text.as_bytes().get(first).copied()
     }
@@ -56,7 +56,10 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// What keeps the text from being such a value, unless that is within a part that fails by itself.
-    pub fn parse<T: DeserializeOwned + Wanted>(&self, open: u8) -> Result<T, Vec<Diagnostic>> {
+    pub(crate) fn parse<T: DeserializeOwned + Wanted>(
+        &self,
+        open: u8,
+    ) -> Result<T, Vec<Diagnostic>> {
         let (text, what) = (self.text, self.what);
         let first = self.tokens.first().map_or(0..0, |t| t.span.clone());
         match text.as_bytes().get(first.start) {
@@ -79,14 +82,14 @@ impl<'a> Document<'a> {
 }
 
 /// The value and what is wrong with it.
-pub type Attempt<T> = (Vec<Diagnostic>, Option<T>);
+pub(crate) type Attempt<T> = (Vec<Diagnostic>, Option<T>);
 
 /// How often a text is read again without its unknown fields; deeper nests of them are not worth more.
 const ROUNDS: usize = 4;
 
 /// Reads `text` by `attempt`. A struct with an unknown field tells nothing else: it is read on without such fields, which are told
 /// of as well. Problems in the order of the text.
-pub fn read<T>(text: &str, attempt: impl Fn(&str) -> Attempt<T>) -> Attempt<T> {
+pub(crate) fn read<T>(text: &str, attempt: impl Fn(&str) -> Attempt<T>) -> Attempt<T> {
     let mut text = text.to_string();
     let mut unknown: Vec<Diagnostic> = Vec::new();
     let (mut problems, mut value) = attempt(&text);
@@ -116,7 +119,7 @@ pub fn read<T>(text: &str, attempt: impl Fn(&str) -> Attempt<T>) -> Attempt<T> {
 }
 
 /// Byte at which a problem's place starts; problems without a place in the text come last.
-pub fn start(problem: &Diagnostic) -> usize {
+pub(crate) fn start(problem: &Diagnostic) -> usize {
     match &problem.place {
         Some(Place::Scene(span)) => span.start,
         _ => usize::MAX,
@@ -140,7 +143,7 @@ fn meant_field(unknown: &Diagnostic) -> Option<&str> {
 }
 
 /// A problem of an included file's text as one that names the file and the line.
-pub fn in_file(problem: Diagnostic, file: &str, text: &str) -> Diagnostic {
+pub(crate) fn in_file(problem: Diagnostic, file: &str, text: &str) -> Diagnostic {
     let Some(Place::Scene(span)) = &problem.place else {
         return match problem.place {
             None => problem.at(Place::File(file.to_string())),

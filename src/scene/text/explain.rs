@@ -8,7 +8,7 @@ use crate::diag::Diagnostic;
 use ron::error::{Error, Position, SpannedError};
 
 /// Text that does not fall into words.
-pub fn broken(text: &str, broken: Broken) -> Diagnostic {
+pub(crate) fn broken(text: &str, broken: Broken) -> Diagnostic {
     match broken {
         Broken::OpenString(span) => {
             error_at(&span, "a string starts here and is not closed on its line")
@@ -56,7 +56,7 @@ fn line_of(text: &str, offset: usize) -> usize {
 }
 
 /// What RON found wrong with the value at `span` of a `what`, in our words. May be several problems.
-pub fn explain(
+pub(crate) fn explain(
     text: &str,
     what: &str,
     span: &Span,
@@ -100,7 +100,7 @@ pub fn explain(
 }
 
 /// How messages about unknown fields begin.
-pub const UNKNOWN_FIELD: &str = "unknown field";
+pub(crate) const UNKNOWN_FIELD: &str = "unknown field";
 
 fn unknown_fields(slice: &str, base: usize, expected: &[&'static str]) -> Vec<Diagnostic> {
     let unknown = tree::members(slice)

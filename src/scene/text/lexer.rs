@@ -7,10 +7,10 @@
 use std::ops::Range;
 
 /// Deepest nesting of brackets a scene may have; real ones need about eight.
-pub const DEEPEST: usize = 64;
+pub(crate) const DEEPEST: usize = 64;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TokenKind {
+pub(crate) enum TokenKind {
     /// One of `( [ {`.
     Open(u8),
     /// One of `) ] }`.
@@ -24,14 +24,14 @@ pub enum TokenKind {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Token {
+pub(crate) struct Token {
     pub kind: TokenKind,
     pub span: Range<usize>,
 }
 
 /// What keeps text from falling into words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Broken {
+pub(crate) enum Broken {
     /// A string is not closed before the end; `span` is the most likely culprit.
     OpenString(Range<usize>),
     OpenComment(Range<usize>),
@@ -49,7 +49,7 @@ pub enum Broken {
 ///
 /// # Errors
 /// The first thing that is not closed, or a typographic quote outside strings.
-pub fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
+pub(crate) fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
     let bytes = text.as_bytes();
     let mut list = Vec::new();
     let mut many_lined: Option<Range<usize>> = None;
@@ -103,7 +103,7 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, Broken> {
 ///
 /// # Errors
 /// The innermost bracket that is not closed, or the first stray one.
-pub fn balanced(tokens: &[Token]) -> Result<(), Broken> {
+pub(crate) fn balanced(tokens: &[Token]) -> Result<(), Broken> {
     let mut open: Vec<(u8, Range<usize>)> = Vec::new();
     for token in tokens {
         match token.kind {
@@ -134,7 +134,7 @@ pub fn balanced(tokens: &[Token]) -> Result<(), Broken> {
 }
 
 /// The closing bracket that belongs to an opening one.
-pub fn partner(open: u8) -> u8 {
+pub(crate) fn partner(open: u8) -> u8 {
     match open {
         b'(' => b')',
         b'[' => b']',
@@ -143,7 +143,7 @@ pub fn partner(open: u8) -> u8 {
 }
 
 /// The range from the first token to the last, i.e. `text` without the spaces and comments around it.
-pub fn trimmed(text: &str) -> Range<usize> {
+pub(crate) fn trimmed(text: &str) -> Range<usize> {
     match tokens(text) {
         Ok(list) => match (list.first(), list.last()) {
             (Some(first), Some(last)) => first.span.start..last.span.end,

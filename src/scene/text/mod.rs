@@ -7,19 +7,20 @@
 //! `reader` asks for values one by one and notes what is missing or out of range, `document` reads a text again without the fields
 //! that nobody knows, `set` changes one value of a text.
 
-pub mod document;
+pub(crate) mod document;
 mod explain;
-pub mod lexer;
-pub mod names;
+pub(crate) mod lexer;
+pub(crate) mod names;
 mod place;
 mod reader;
-pub mod set;
-pub mod spanned;
+pub(crate) mod set;
+pub(crate) mod spanned;
 mod tree;
-pub mod wanted;
+pub(crate) mod wanted;
 mod wording;
 
-pub use place::{Span, error_at, placed, warning_at};
-pub use reader::Reader;
-pub use spanned::{Field, List, Spanned};
-pub use wording::{nearest, printable, short};
+pub(crate) use place::{Span, error_at, placed, warning_at};
+pub(crate) use reader::Reader;
+pub(crate) use spanned::{Field, List, Spanned};
+pub use wording::nearest;
+pub(crate) use wording::{printable, short};

@@ -14,7 +14,7 @@ const RESERVED: [&str; 10] = [
 ///
 /// What can be repaired is repaired with a warning; what looks like a path, is empty or too long is an error.
 /// `owner` says whose name it is: "view".
-pub fn checked(reader: &mut Reader, name: &str, span: &Span, owner: &str) -> Option<String> {
+pub(crate) fn checked(reader: &mut Reader, name: &str, span: &Span, owner: &str) -> Option<String> {
     let shown = printable(name);
     let fail = |why: &str| error_at(span, format!("the name of a {owner} {why}: \"{shown}\""));
     let problem = if name.trim().is_empty() {

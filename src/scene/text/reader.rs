@@ -11,7 +11,7 @@ use crate::diag::Diagnostic;
 use crate::scene::defaults;
 
 /// Collects the problems of one text.
-pub struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     pub text: &'a str,
     /// What the text is: a "scene" or a "layout".
     pub what: &'static str,
@@ -22,7 +22,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(text: &'a str, what: &'static str) -> Self {
+    pub(crate) fn new(text: &'a str, what: &'static str) -> Self {
         Self {
             text,
             what,
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Where a value stands.
-    pub fn span<T>(&self, spanned: &Spanned<T>) -> Span {
+    pub(crate) fn span<T>(&self, spanned: &Spanned<T>) -> Span {
         let start = spanned
             .address
             .saturating_sub(self.text.as_ptr() as usize)
@@ -42,17 +42,17 @@ impl<'a> Reader<'a> {
     }
 
     /// What became of a file that the scene names at `span`.
-    pub fn read<T>(&mut self, done: Result<T, Diagnostic>, span: &Span) -> Option<T> {
+    pub(crate) fn read<T>(&mut self, done: Result<T, Diagnostic>, span: &Span) -> Option<T> {
         done.map_err(|problem| self.problems.push(placed(problem, span)))
             .ok()
     }
 
-    pub fn error(&mut self, span: &Span, message: impl Into<String>) {
+    pub(crate) fn error(&mut self, span: &Span, message: impl Into<String>) {
         self.problems.push(error_at(span, message));
     }
 
     /// The value if it could be read; otherwise its problem is noted.
-    pub fn value<'v, T: Wanted>(&mut self, spanned: &'v Spanned<T>) -> Option<&'v T> {
+    pub(crate) fn value<'v, T: Wanted>(&mut self, spanned: &'v Spanned<T>) -> Option<&'v T> {
         match &spanned.value {
             Ok(value) => Some(value),
             Err(error) => {
@@ -65,7 +65,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The value and place of a field if it is there and right.
-    pub fn given<'v, T: Wanted>(&mut self, field: &'v Field<T>) -> Option<(&'v T, Span)> {
+    pub(crate) fn given<'v, T: Wanted>(&mut self, field: &'v Field<T>) -> Option<(&'v T, Span)> {
         match field {
             Field::Missing => None,
             Field::Given(spanned) => {
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
     }
 
     /// As `given`, but a missing field is an error of `owner` ("view \"front\""), which stands at `place`.
-    pub fn required<'v, T: Wanted>(
+    pub(crate) fn required<'v, T: Wanted>(
         &mut self,
         field: &'v Field<T>,
         name: &str,
@@ -88,7 +88,13 @@ impl<'a> Reader<'a> {
     }
 
     /// Notes an error if the field is missing.
-    pub fn need<T: Wanted>(&mut self, field: &Field<T>, name: &str, owner: &str, place: &Span) {
+    pub(crate) fn need<T: Wanted>(
+        &mut self,
+        field: &Field<T>,
+        name: &str,
+        owner: &str,
+        place: &Span,
+    ) {
         if matches!(field, Field::Missing) {
             let head = head_of(self.text, place);
             self.problems.push(
@@ -100,13 +106,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A number that is neither NaN nor infinite.
-    pub fn number(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+    pub(crate) fn number(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
         let (&value, span) = self.given(field)?;
         Some((self.finite(value, name, &span)?, span))
     }
 
     /// The number, if it is neither NaN nor infinite.
-    pub fn finite(&mut self, value: f64, name: &str, span: &Span) -> Option<f64> {
+    pub(crate) fn finite(&mut self, value: f64, name: &str, span: &Span) -> Option<f64> {
         if value.is_finite() {
             return Some(value);
         }
@@ -118,7 +124,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A number without unit, or an angle in degrees, within a range.
-    pub fn within(
+    pub(crate) fn within(
         &mut self,
         field: &Field<f64>,
         name: &str,
@@ -137,14 +143,14 @@ impl<'a> Reader<'a> {
     }
 
     /// A length in millimetres, signed, within ten metres.
-    pub fn length(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+    pub(crate) fn length(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
         let (value, span) = self.number(field, name)?;
         let value = self.scaled(value, name, &span)?;
         Some((value, span))
     }
 
     /// A length of at least `least` millimetres.
-    pub fn length_from(
+    pub(crate) fn length_from(
         &mut self,
         field: &Field<f64>,
         name: &str,
@@ -156,7 +162,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A number at `span` as a length of at least `least` millimetres.
-    pub fn measured(&mut self, value: f64, name: &str, least: f64, span: &Span) -> Option<f64> {
+    pub(crate) fn measured(
+        &mut self,
+        value: f64,
+        name: &str,
+        least: f64,
+        span: &Span,
+    ) -> Option<f64> {
         let value = self.finite(value, name, span)?;
         let value = self.scaled(value, name, span)?;
         if value >= least {
@@ -175,12 +187,17 @@ impl<'a> Reader<'a> {
     }
 
     /// A length above zero.
-    pub fn positive(&mut self, field: &Field<f64>, name: &str) -> Option<f64> {
+    pub(crate) fn positive(&mut self, field: &Field<f64>, name: &str) -> Option<f64> {
         self.positive_at(field, name).map(|(value, _)| value)
     }
 
     /// A length above zero, or the usual one if it is not given.
-    pub fn positive_or(&mut self, field: &Field<f64>, name: &str, usual: f64) -> Option<f64> {
+    pub(crate) fn positive_or(
+        &mut self,
+        field: &Field<f64>,
+        name: &str,
+        usual: f64,
+    ) -> Option<f64> {
         match field {
             Field::Missing => Some(usual),
             field => self.positive(field, name),
@@ -188,7 +205,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A length above zero and its place.
-    pub fn positive_at(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
+    pub(crate) fn positive_at(&mut self, field: &Field<f64>, name: &str) -> Option<(f64, Span)> {
         let (value, span) = self.length(field, name)?;
         if value > 0.0 {
             return Some((value, span));
@@ -201,18 +218,18 @@ impl<'a> Reader<'a> {
     }
 
     /// An angle given in degrees, radians; 0 if it is not given.
-    pub fn turn(&mut self, field: &Field<f64>) -> f64 {
+    pub(crate) fn turn(&mut self, field: &Field<f64>) -> f64 {
         self.number(field, "turn")
             .map_or(0.0, |(degrees, _)| degrees.to_radians())
     }
 
     /// Yes or no, or what holds if the text says neither.
-    pub fn flag(&mut self, field: &Field<bool>, default: bool) -> bool {
+    pub(crate) fn flag(&mut self, field: &Field<bool>, default: bool) -> bool {
         self.given(field).map_or(default, |(value, _)| *value)
     }
 
     /// A point in millimetres.
-    pub fn point<const N: usize>(
+    pub(crate) fn point<const N: usize>(
         &mut self,
         values: &[f64; N],
         name: &str,
@@ -233,7 +250,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A field that is a point, in millimetres.
-    pub fn point_field<const N: usize>(
+    pub(crate) fn point_field<const N: usize>(
         &mut self,
         field: &Field<[f64; N]>,
         name: &str,
@@ -247,7 +264,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A whole number within a range.
-    pub fn count(
+    pub(crate) fn count(
         &mut self,
         field: &Field<u32>,
         name: &str,

@@ -64,7 +64,7 @@ pub fn set(text: &str, assignment: &str) -> Result<String, Diagnostic> {
 }
 
 /// The text of the value that a path leads to.
-pub fn value<'a>(text: &'a str, path: &str) -> Option<&'a str> {
+pub(crate) fn value<'a>(text: &'a str, path: &str) -> Option<&'a str> {
     steps(path)?.iter().try_fold(text, |inside, step| {
         let member = find(inside, &tree::members(inside), step)?;
         Some(&inside[member.value])

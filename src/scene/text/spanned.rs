@@ -13,7 +13,7 @@ use serde::{Deserialize, Deserializer};
 
 /// A value of the scene's text with its place.
 #[derive(Debug)]
-pub struct Spanned<T> {
+pub(crate) struct Spanned<T> {
     /// Address of the first byte of the value in the parsed text.
     pub address: usize,
     /// Bytes.
@@ -23,31 +23,31 @@ pub struct Spanned<T> {
 }
 
 /// A list whose items fail one by one.
-pub type List<T> = Vec<Spanned<T>>;
+pub(crate) type List<T> = Vec<Spanned<T>>;
 
 /// A field that may be left out.
 #[derive(Debug, Default)]
-pub enum Field<T> {
+pub(crate) enum Field<T> {
     #[default]
     Missing,
     Given(Spanned<T>),
 }
 
 /// How scenes are read: newtypes need no brackets of their own.
-pub fn options() -> ron::Options {
+pub(crate) fn options() -> ron::Options {
     ron::Options::default()
         .with_default_extension(Extensions::UNWRAP_NEWTYPES | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
 /// The text of a value without spaces and comments around it.
-pub fn own_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'de str, D::Error> {
+pub(crate) fn own_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'de str, D::Error> {
     let text = <&'de RawValue>::deserialize(deserializer)?.get_ron();
     Ok(&text[lexer::trimmed(text)])
 }
 
 impl<T: DeserializeOwned> Spanned<T> {
     /// The value that `text`, a part of the parsed text, stands for.
-    pub fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         Self {
             address: text.as_ptr() as usize,
             length: text.len(),

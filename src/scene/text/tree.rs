@@ -5,14 +5,14 @@ use std::ops::Range;
 
 /// One item of a list or one field of a struct, byte ranges of the text it was found in.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Member {
+pub(crate) struct Member {
     /// The field's name; `None` in lists and tuples.
     pub name: Option<Range<usize>>,
     pub value: Range<usize>,
 }
 
 /// The direct members of the first bracketed value of `text`; none if it is not bracketed.
-pub fn members(text: &str) -> Vec<Member> {
+pub(crate) fn members(text: &str) -> Vec<Member> {
     let tokens = skip_attribute(text);
     let Some(open) = tokens
         .iter()
@@ -48,7 +48,7 @@ pub fn members(text: &str) -> Vec<Member> {
 }
 
 /// The range inside the first bracket of `text` where one more member can be put: just before its end.
-pub fn inner_end(text: &str) -> Option<usize> {
+pub(crate) fn inner_end(text: &str) -> Option<usize> {
     let tokens = skip_attribute(text);
     let mut depth = 0usize;
     for token in tokens {
@@ -63,7 +63,7 @@ pub fn inner_end(text: &str) -> Option<usize> {
 }
 
 /// The text with the field whose name starts at byte `name` overwritten by spaces, comma included: same length, same offsets.
-pub fn without_field(text: &str, name: usize) -> String {
+pub(crate) fn without_field(text: &str, name: usize) -> String {
     let tokens = lexer::tokens(text).unwrap_or_default();
     let mut depth = 0usize;
     let mut end = name;
@@ -105,7 +105,7 @@ fn member(tokens: &[Token]) -> Option<Member> {
 }
 
 /// Tokens of the text after `#![...]` lines.
-pub fn skip_attribute(text: &str) -> Vec<Token> {
+pub(crate) fn skip_attribute(text: &str) -> Vec<Token> {
     let mut tokens = lexer::tokens(text).unwrap_or_default();
     while tokens
         .first()

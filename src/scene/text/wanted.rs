@@ -3,7 +3,7 @@
 use super::spanned::List;
 
 /// What a value should have been.
-pub trait Wanted {
+pub(crate) trait Wanted {
     const WANTED: &'static str;
 }
 

@@ -3,7 +3,7 @@
 use crate::diag::escaped;
 
 /// A number for people: at most three decimals, none without need.
-pub fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let rounded = (value * 1e3).round() / 1e3;
     if value != 0.0 && rounded == 0.0 {
         format!("{value:e}")
@@ -27,7 +27,7 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
 }
 
 /// Makes text fit for one line of a terminal: control and direction characters escaped, cut at 60 characters or the first line end.
-pub fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     let line = text.lines().next().unwrap_or("");
     let mut out = escaped(&line.chars().take(60).collect::<String>());
     if line.len() < text.len() || line.chars().count() > 60 {

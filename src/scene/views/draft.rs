@@ -9,7 +9,7 @@ use crate::scene::text::{Field, List, Reader, Span, error_at, nearest, printable
 use glam::DVec3;
 
 /// A view before its models are placed.
-pub struct Draft {
+pub(crate) struct Draft {
     pub name: String,
     pub stand: Stand,
     pub eye_span: Span,
@@ -20,7 +20,7 @@ pub struct Draft {
 
 impl Draft {
     /// From where it is seen, for checks.
-    pub fn eye(&self) -> Eye {
+    pub(crate) fn eye(&self) -> Eye {
         Eye {
             view: self.name.clone(),
             stand: self.stand,
@@ -30,7 +30,7 @@ impl Draft {
 }
 
 /// The views as written, each with what can be said of it before models are loaded.
-pub fn drafts(
+pub(crate) fn drafts(
     reader: &mut Reader,
     field: &Field<List<RawView>>,
     scene_span: &Span,

@@ -6,7 +6,7 @@ use crate::scene::text::{Field, Reader, Span, error_at};
 use glam::DVec3;
 
 /// The eye of a view, for checks.
-pub struct Eye {
+pub(crate) struct Eye {
     pub view: String,
     pub stand: Stand,
     pub span: Span,
@@ -14,7 +14,7 @@ pub struct Eye {
 
 /// Where an eye is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stand {
+pub(crate) enum Stand {
     At(DVec3),
     /// At infinity, in this direction (unit).
     Towards(DVec3),
@@ -22,7 +22,7 @@ pub enum Stand {
 
 impl Stand {
     /// Whether two eyes are one.
-    pub fn is_like(self, other: Self) -> bool {
+    pub(crate) fn is_like(self, other: Self) -> bool {
         match (self, other) {
             (Self::At(a), Self::At(b)) => a.distance(b) < 1.0,
             (Self::Towards(a), Self::Towards(b)) => a.distance(b) < SAME_WAY,
@@ -35,7 +35,7 @@ impl Stand {
 const SAME_WAY: f64 = 1e-3;
 
 /// Where a view's eye is: exactly one of two fields says so.
-pub fn stand(
+pub(crate) fn stand(
     reader: &mut Reader,
     raw: &RawView,
     owner: &str,
@@ -72,7 +72,7 @@ pub fn stand(
 }
 
 /// An eye must look somewhere, and not straight down.
-pub fn direction(view: &str, eye: DVec3, look_at: DVec3, span: &Span) -> Option<Diagnostic> {
+pub(crate) fn direction(view: &str, eye: DVec3, look_at: DVec3, span: &Span) -> Option<Diagnostic> {
     let gaze = look_at - eye;
     if gaze.length() < 1e-3 {
         let problem = error_at(

@@ -6,6 +6,6 @@ mod draft;
 mod eye;
 mod placed;
 
-pub use draft::{Draft, drafts};
-pub use eye::{Eye, Stand};
-pub use placed::view;
+pub(crate) use draft::{Draft, drafts};
+pub(crate) use eye::{Eye, Stand};
+pub(crate) use placed::view;

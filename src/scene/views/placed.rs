@@ -10,7 +10,7 @@ use crate::view::{PlacedModel, View};
 use glam::DVec3;
 
 /// Places a view's models and completes it; models that failed to load are left out (their errors are noted already).
-pub fn view(
+pub(crate) fn view(
     reader: &mut Reader,
     draft: Draft,
     models: &[Model],

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 /// A path somewhere in a file.
 #[derive(Debug)]
-pub struct Path {
+pub(crate) struct Path {
     /// The inline modules it stands in, outermost first.
     pub inside: Vec<String>,
     /// `["super", "reader", "Span"]`; a path from the extern prelude (`::ron`) begins with an empty segment.
@@ -18,7 +18,7 @@ pub struct Path {
 }
 
 #[derive(Debug, PartialEq, Eq)]
-pub enum Role {
+pub(crate) enum Role {
     /// `use`, under the path's last name or the one behind `as`; `None`: all that the path holds (`*`). `shared`: others may import
     /// it from here (`pub use`).
     Import {
@@ -29,7 +29,7 @@ pub enum Role {
 }
 
 #[derive(Debug, Default)]
-pub struct Contents {
+pub(crate) struct Contents {
     pub paths: Vec<Path>,
     /// Inline modules, each with those it stands in before it.
     pub inline: Vec<Vec<String>>,
@@ -53,7 +53,7 @@ impl Token {
     }
 }
 
-pub fn contents(text: &str) -> Contents {
+pub(crate) fn contents(text: &str) -> Contents {
     let tokens = tokens(text);
     let at = |i: usize| tokens.get(i).map_or("", |t| t.text.as_str());
     let word = |i: usize| tokens.get(i).is_some_and(Token::is_word);

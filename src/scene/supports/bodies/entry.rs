@@ -7,7 +7,7 @@ use crate::scene::text::{Field, Reader, Span, names};
 use glam::{DMat4, DVec2, DVec3};
 
 /// One entry of `supports`.
-pub struct BodyEntry<'a> {
+pub(crate) struct BodyEntry<'a> {
     pub span: &'a Span,
     pub depth: &'a Wish,
     pub read: ReadFile<'a>,
@@ -15,7 +15,7 @@ pub struct BodyEntry<'a> {
 
 impl BodyEntry<'_> {
     /// Lengths above zero that must be there.
-    pub fn sizes<const N: usize>(
+    pub(crate) fn sizes<const N: usize>(
         &self,
         reader: &mut Reader,
         fields: [(&Field<f64>, &str); N],
@@ -30,7 +30,7 @@ impl BodyEntry<'_> {
 }
 
 /// The entry's name, or the usual one of its form.
-pub fn name(reader: &mut Reader, field: &Field<String>, usual: &str) -> Option<String> {
+pub(crate) fn name(reader: &mut Reader, field: &Field<String>, usual: &str) -> Option<String> {
     match reader.given(field) {
         Some((name, span)) => names::checked(reader, name, &span, "support"),
         None => Some(usual.to_string()),
@@ -38,7 +38,7 @@ pub fn name(reader: &mut Reader, field: &Field<String>, usual: &str) -> Option<S
 }
 
 /// Where a face stands and looks.
-pub fn frame(
+pub(crate) fn frame(
     reader: &mut Reader,
     at: &Field<[f64; 3]>,
     facing: &Field<[f64; 2]>,

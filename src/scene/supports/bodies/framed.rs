@@ -7,7 +7,7 @@ use crate::scene::text::Field;
 use glam::{DMat4, DVec2, DVec3};
 
 /// A mesh in a frame of its own, and what is said of it.
-pub struct FramedMesh<'a> {
+pub(crate) struct FramedMesh<'a> {
     pub name: String,
     pub mesh: TriMesh,
     pub frame: DMat4,
@@ -20,7 +20,12 @@ pub struct FramedMesh<'a> {
 
 impl<'a> FramedMesh<'a> {
     /// Neither flat nor in parts.
-    pub fn plain(name: String, mesh: TriMesh, frame: DMat4, depth: &'a Field<RawDepth>) -> Self {
+    pub(crate) fn plain(
+        name: String,
+        mesh: TriMesh,
+        frame: DMat4,
+        depth: &'a Field<RawDepth>,
+    ) -> Self {
         Self {
             name,
             mesh,
@@ -33,7 +38,7 @@ impl<'a> FramedMesh<'a> {
 }
 
 /// A prism over an outline in (x, z), counter-clockwise seen from above, from y = 0 to `height`.
-pub fn upright(outline: &[DVec2], height: f64) -> TriMesh {
+pub(crate) fn upright(outline: &[DVec2], height: f64) -> TriMesh {
     // Seen from above, x to the right and z towards the viewer are left-handed.
     let mut mirrored: Vec<DVec2> = outline
         .iter()
@@ -46,7 +51,7 @@ pub fn upright(outline: &[DVec2], height: f64) -> TriMesh {
 }
 
 /// The mesh with every vertex moved.
-pub fn moved(mesh: &TriMesh, by: impl Fn(DVec3) -> DVec3) -> TriMesh {
+pub(crate) fn moved(mesh: &TriMesh, by: impl Fn(DVec3) -> DVec3) -> TriMesh {
     TriMesh {
         vertices: mesh.vertices.iter().map(|p| by(*p)).collect(),
         faces: mesh.faces.clone(),

@@ -9,7 +9,7 @@ use crate::scene::text::{Reader, error_at, short};
 use glam::DVec2;
 
 /// A block with a groove as the scene says it.
-pub fn groove<'r>(
+pub(crate) fn groove<'r>(
     reader: &mut Reader,
     raw: &'r RawGroove,
     entry: &BodyEntry,

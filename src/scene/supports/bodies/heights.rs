@@ -7,10 +7,10 @@ use crate::scene::text::{Reader, Span, error_at};
 use exmex::{Express, FlatEx};
 
 /// Height over the face, millimetres, at x to the right of its middle and y above its lower edge, millimetres.
-pub type Heights = Box<dyn Fn(f64, f64) -> f64>;
+pub(crate) type Heights = Box<dyn Fn(f64, f64) -> f64>;
 
 /// What a formula of x and y says.
-pub fn formula(reader: &mut Reader, text: &str, span: &Span) -> Option<Heights> {
+pub(crate) fn formula(reader: &mut Reader, text: &str, span: &Span) -> Option<Heights> {
     if text.len() > defaults::LONGEST_FORMULA {
         let text = format!(
             "the formula has {} characters; the limit is {}",
@@ -45,7 +45,7 @@ fn value(parsed: &FlatEx<f64>, names: &[String], [x, y]: [f64; 2]) -> f64 {
 }
 
 /// What a PNG says, stretched over a face of this size: black is `from`, white is `to`; linear between the middles of pixels.
-pub fn image(
+pub(crate) fn image(
     reader: &mut Reader,
     raw: &RawImage,
     span: &Span,

@@ -14,7 +14,7 @@ use crate::support::{Face, Support, SupportKind};
 use glam::DVec3;
 
 /// All bodies that can be read; `depth` is what holds where they say nothing. Their names are numbered where there are several.
-pub fn bodies(
+pub(crate) fn bodies(
     reader: &mut Reader,
     field: &Field<List<RawSupport>>,
     depth: &Wish,

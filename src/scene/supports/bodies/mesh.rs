@@ -11,7 +11,7 @@ use crate::scene::text::{Field, Reader, Span, error_at, placed};
 use glam::{DMat4, DVec3};
 
 /// A mesh as the scene says it, in its place: its frame is the scene's.
-pub fn mesh<'r>(
+pub(crate) fn mesh<'r>(
     reader: &mut Reader,
     raw: &'r RawBody,
     entry: &BodyEntry,

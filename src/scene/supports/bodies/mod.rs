@@ -15,4 +15,4 @@ mod plates;
 mod stairs;
 mod wave;
 
-pub use list::bodies;
+pub(crate) use list::bodies;

@@ -9,7 +9,7 @@ use crate::scene::text::{Field, Reader};
 use glam::{DMat4, DVec2, DVec3};
 
 /// A plate as the scene says it.
-pub fn plate<'r>(
+pub(crate) fn plate<'r>(
     reader: &mut Reader,
     raw: &'r RawPlate,
     entry: &BodyEntry,
@@ -29,7 +29,7 @@ pub fn plate<'r>(
 }
 
 /// Plates side by side, from left to right as they are looked at, each turned against its neighbour about their common edge.
-pub fn strips<'r>(
+pub(crate) fn strips<'r>(
     reader: &mut Reader,
     raw: &'r RawStrips,
     entry: &BodyEntry,

@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 const FLAT: f64 = 1e-6;
 
 /// A flight of stairs; every riser and tread is a part of its own.
-pub fn stairs<'r>(
+pub(crate) fn stairs<'r>(
     reader: &mut Reader,
     raw: &'r RawStairs,
     entry: &BodyEntry,

@@ -11,7 +11,7 @@ use crate::scene::text::{Reader, Span, error_at, short};
 use glam::DVec3;
 
 /// A wave as the scene says it.
-pub fn wave<'r>(
+pub(crate) fn wave<'r>(
     reader: &mut Reader,
     raw: &'r RawWave,
     entry: &BodyEntry,
