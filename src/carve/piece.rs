@@ -111,7 +111,7 @@ impl<'a> Piece<'a> {
                 }
             }
         }
-        let of = |set: Vec<u32>| set.into_iter().map(|i| cells[i as usize]).collect();
+        let of = |set: Vec<usize>| set.into_iter().map(|i| cells[i]).collect();
         sets.members().into_iter().map(of).collect()
     }
 }
