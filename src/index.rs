@@ -21,6 +21,14 @@ macro_rules! indices {
                 self.0 as usize
             }
 
+            /// The index so many further on: that of the same thing in a list that the first was appended to.
+            ///
+            /// # Panics
+            /// As [`Self::new`].
+            pub fn plus(self, before: usize) -> Self {
+                Self::new(self.at() + before)
+            }
+
             /// All indices of a list of this length, rising.
             pub fn all(length: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone {
                 (0..Self::new(length).0 as usize).map(|i| Self(i as u32))
@@ -78,4 +86,16 @@ indices! {
     GroupId
     /// A view of the scene.
     ViewId
+}
+
+impl FacetId {
+    /// The facet that is this face of the mesh of all supports.
+    pub const fn of(face: FaceId) -> Self {
+        Self(face.0)
+    }
+
+    /// As a face of that mesh.
+    pub const fn face(self) -> FaceId {
+        FaceId(self.0)
+    }
 }

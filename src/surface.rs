@@ -157,7 +157,7 @@ impl<'a> Input<'a> {
         let mut first_target = 0;
         let originals = input.originals.clone();
         for (model, original) in view.models.iter().zip(&originals) {
-            let first = input.points.len() as u32;
+            let first = input.points.len();
             let mirrored = model.matrix.determinant() < 0.0;
             input.join_attributes(original, mirrored);
             for (point, vertex) in original.mesh.vertices.iter().zip(&original.vertex_of) {
@@ -165,14 +165,12 @@ impl<'a> Input<'a> {
                     Some(v) => model.mesh.vertices[v],
                     None => model.matrix.transform_point3(*point),
                 });
-                input
-                    .target
-                    .push(vertex.map(|v| VertexId(first_target + v.0)));
+                input.target.push(vertex.map(|v| v.plus(first_target)));
             }
             let faces = original.mesh.faces.iter().map(|f| turned(f, mirrored));
-            let moved = |v: VertexId| VertexId(v.0 + first);
+            let moved = |v: VertexId| v.plus(first);
             input.faces.extend(faces.map(|f| f.map(moved)));
-            first_target += model.mesh.vertices.len() as u32;
+            first_target += model.mesh.vertices.len();
         }
         input
     }
@@ -290,8 +288,8 @@ impl<'a> Input<'a> {
         let mut first = 0;
         for (model, original) in view.models.iter().zip(&self.originals) {
             let faces = original.faces_of(&model.mesh).into_iter();
-            all.extend(faces.map(|f| f.map(|f| FaceId(f.0 + first))));
-            first += original.mesh.faces.len() as u32;
+            all.extend(faces.map(|f| f.map(|f| f.plus(first))));
+            first += original.mesh.faces.len();
         }
         all
     }

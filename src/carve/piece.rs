@@ -119,7 +119,7 @@ impl<'a> ReliefOnSupport<'a> {
                 }
             }
         }
-        let of = |set: Vec<u32>| set.into_iter().map(|i| cells[i as usize]).collect();
+        let of = |set: Vec<usize>| set.into_iter().map(|i| cells[i]).collect();
         sets.members().into_iter().map(of).collect()
     }
 }

@@ -10,6 +10,7 @@ use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::body::NamedMesh;
 use crate::formats::colours;
 use crate::formats::obj_check::{Usable, check, logical_lines};
+use crate::index::VertexId;
 use crate::mesh::polygon::triangulate;
 use crate::mesh::{Attributes, NO_UV, TriMesh, Uvs};
 use glam::{DVec2, DVec3};
@@ -134,11 +135,11 @@ fn from_tobj(read: &tobj::Mesh, usable: &Usable) -> (TriMesh, Attributes) {
             break;
         }
         let polygon = &read.indices[first..first + arity];
-        let points: Vec<DVec3> = polygon.iter().map(|v| vertices[*v as usize]).collect();
+        let points: Vec<DVec3> = polygon.iter().map(|v| vertices[VertexId(*v)]).collect();
         for triangle in triangulate(&points) {
-            faces.push(triangle.map(|k| polygon[k as usize]));
+            faces.push(triangle.map(|k| polygon[k]));
             if usable.texture_points.is_some() {
-                corners.push(triangle.map(|k| texture(first + k as usize)));
+                corners.push(triangle.map(|k| texture(first + k)));
             }
         }
         first += arity;

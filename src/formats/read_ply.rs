@@ -9,6 +9,7 @@ use crate::formats::body::NamedMesh;
 use crate::formats::channels::Channels;
 use crate::formats::narrow::{count, index};
 use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
+use crate::index::VertexId;
 use crate::mesh::polygon::triangulate;
 use crate::mesh::{TriMesh, Uvs};
 use glam::{DVec2, DVec3};
@@ -577,11 +578,14 @@ impl Builder {
         let mut first = 0;
         for arity in &self.arities {
             let polygon = &self.corners[first as usize..(first + arity) as usize];
-            let points: Vec<DVec3> = polygon.iter().map(|v| self.vertices[*v as usize]).collect();
+            let points: Vec<DVec3> = polygon
+                .iter()
+                .map(|v| self.vertices[VertexId(*v)])
+                .collect();
             triangles.extend(
                 triangulate(&points)
                     .into_iter()
-                    .map(|t| t.map(|k| first + k)),
+                    .map(|t| t.map(|k| first + k as u32)),
             );
             first += arity;
         }

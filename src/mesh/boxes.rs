@@ -97,7 +97,7 @@ impl BoxTree {
             }
             if node.count == 0 {
                 stack[depth] = NodeId(node.first);
-                stack[depth + 1] = NodeId(index.0 + 1);
+                stack[depth + 1] = index.plus(1);
                 depth += 2;
                 continue;
             }

@@ -20,7 +20,7 @@ enum Next {
 }
 
 /// Triangles of corner numbers `0 .. points.len()`, in any time that a file of any size can be given.
-pub fn triangulate(points: &[DVec3]) -> Vec<[u32; 3]> {
+pub fn triangulate(points: &[DVec3]) -> Vec<[usize; 3]> {
     let n = points.len();
     if n < 3 {
         return Vec::new();
@@ -28,14 +28,14 @@ pub fn triangulate(points: &[DVec3]) -> Vec<[u32; 3]> {
     let outline = Outline::new(points);
     let reflex = outline.reflex();
     if n == 3 || reflex.is_empty() || n.saturating_mul(reflex.len()) > MAX_WORK {
-        return halve(n as u32);
+        return halve(n);
     }
     clip_ears(&outline, reflex, Next::Onward)
 }
 
 /// Triangles of a simple polygon in the ground plane that turns counter-clockwise, of at most some thousand corners. The caps of a
 /// scene's prisms are cut this way: no point of theirs is far from the others, and printed files keep their bytes.
-pub fn triangulate_outline(polygon: &[DVec2]) -> Vec<[u32; 3]> {
+pub fn triangulate_outline(polygon: &[DVec2]) -> Vec<[usize; 3]> {
     let points: Vec<DVec3> = polygon.iter().map(|p| p.extend(0.0)).collect();
     let outline = Outline {
         points: &points,
@@ -46,8 +46,8 @@ pub fn triangulate_outline(polygon: &[DVec2]) -> Vec<[u32; 3]> {
 }
 
 /// Triangles of a convex polygon by halving its outline: a fan of a large one would be all needles in one corner.
-fn halve(n: u32) -> Vec<[u32; 3]> {
-    let mut triangles = Vec::with_capacity(n as usize - 2);
+fn halve(n: usize) -> Vec<[usize; 3]> {
+    let mut triangles = Vec::with_capacity(n - 2);
     let mut chains = vec![(0, n - 1)];
     while let Some((first, last)) = chains.pop() {
         let middle = (first + last).div_ceil(2);
@@ -101,7 +101,7 @@ impl<'a> Outline<'a> {
 }
 
 /// Ear clipping on a ring list: only reflex corners can lie in an ear.
-fn clip_ears(outline: &Outline, mut reflex: Vec<usize>, rule: Next) -> Vec<[u32; 3]> {
+fn clip_ears(outline: &Outline, mut reflex: Vec<usize>, rule: Next) -> Vec<[usize; 3]> {
     let n = outline.points.len();
     let mut next: Vec<usize> = (0..n).map(|k| (k + 1) % n).collect();
     let mut previous: Vec<usize> = (0..n).map(|k| (k + n - 1) % n).collect();
@@ -112,7 +112,7 @@ fn clip_ears(outline: &Outline, mut reflex: Vec<usize>, rule: Next) -> Vec<[u32;
         let ear = [previous[corner], corner, next[corner]];
         // After a full round without an ear the outline crosses itself: cut anyway, to end.
         if tried > left || is_ear(outline, ear, &reflex) {
-            triangles.push(ear.map(|k| k as u32));
+            triangles.push(ear);
             next[ear[0]] = ear[2];
             previous[ear[2]] = ear[0];
             left -= 1;
@@ -134,7 +134,7 @@ fn clip_ears(outline: &Outline, mut reflex: Vec<usize>, rule: Next) -> Vec<[u32;
         Next::Onward => previous[corner],
         Next::Lowest => lowest,
     };
-    triangles.push([first, next[first], next[next[first]]].map(|k| k as u32));
+    triangles.push([first, next[first], next[next[first]]]);
     triangles
 }
 

@@ -233,16 +233,16 @@ impl DisjointSets {
     }
 
     /// The members of each set, rising; sets by their smallest member.
-    pub fn members(&mut self) -> Vec<Vec<u32>> {
+    pub fn members(&mut self) -> Vec<Vec<usize>> {
         let mut set_of_root = vec![None; self.parent.len()];
-        let mut sets: Vec<Vec<u32>> = Vec::new();
+        let mut sets: Vec<Vec<usize>> = Vec::new();
         for x in MemberId::all(self.parent.len()) {
             let root = MemberId(self.root(x.0));
             let set = *set_of_root[root].get_or_insert_with(|| {
                 sets.push(Vec::new());
                 sets.len() - 1
             });
-            sets[set].push(x.0);
+            sets[set].push(x.at());
         }
         sets
     }

@@ -87,11 +87,7 @@ impl TriMesh {
     pub fn append(&mut self, other: &Self) {
         let offset = self.vertices.len();
         self.vertices.extend_from_slice(&other.vertices);
-        self.faces.extend(
-            other
-                .faces
-                .iter()
-                .map(|f| f.map(|v| VertexId::new(v.at() + offset))),
-        );
+        self.faces
+            .extend(other.faces.iter().map(|f| f.map(|v| v.plus(offset))));
     }
 }

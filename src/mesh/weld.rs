@@ -127,6 +127,9 @@ pub fn drop_unreferenced(mesh: &mut TriMesh) -> usize {
 }
 
 /// Drops vertices that no face uses; gives the new index of each old vertex that stays.
+///
+/// # Panics
+/// Never with fewer than 2^32 vertices.
 pub fn keep_referenced(mesh: &mut TriMesh) -> Vec<Option<VertexId>> {
     let mut used = vec![false; mesh.vertices.len()];
     for v in mesh.faces.iter().flatten() {

@@ -4,15 +4,21 @@
 //! are solved sooner than their sum, side by side, and again only where rows were added.
 
 use super::program::{Program, Row};
+use crate::index::indices;
 use crate::mesh::DisjointSets;
+
+indices! {
+    /// A block of a program.
+    BlockId
+}
 
 /// A part of a program with its places in the whole.
 pub(crate) struct ProgramBlock {
     pub program: Program,
     /// Variable of the whole program of each of the block's.
-    pub variables: Vec<u32>,
-    pub equalities: Vec<u32>,
-    pub rows: Vec<u32>,
+    pub variables: Vec<usize>,
+    pub equalities: Vec<usize>,
+    pub rows: Vec<usize>,
 }
 
 /// The blocks, by their first variables.
@@ -28,24 +34,26 @@ pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
     for (_, (i, j)) in &program.quadratic {
         sets.join(i as u32, j as u32);
     }
-    let (count, of) = sets.numbers();
-    let mut blocks: Vec<Vec<u32>> = vec![Vec::new(); count];
+    let blocks = sets.members();
+    // Block of every unknown, and its place there.
+    let mut home_of = vec![BlockId(0); program.variables];
     let mut place = vec![0; program.variables];
-    for (v, b) in of.iter().enumerate() {
-        place[v] = blocks[*b as usize].len();
-        blocks[*b as usize].push(v as u32);
+    for (b, variables) in BlockId::all(blocks.len()).zip(&blocks) {
+        for (i, v) in variables.iter().enumerate() {
+            (home_of[*v], place[*v]) = (b, i);
+        }
     }
     let numbered = |terms: &[(usize, f64)]| terms.iter().map(|(v, c)| (place[*v], *c)).collect();
     let mut made: Vec<ProgramBlock> = blocks
         .into_iter()
         .map(|variables| empty(program, variables))
         .collect();
-    let home = |terms: &[(usize, f64)]| terms.first().map(|t| of[t.0] as usize);
+    let home = |terms: &[(usize, f64)]| terms.first().map(|t| home_of[t.0]);
     for (i, (terms, value)) in program.equalities.iter().enumerate() {
         let Some(block) = home(terms).map(|b| &mut made[b]) else {
             continue;
         };
-        block.equalities.push(i as u32);
+        block.equalities.push(i);
         block.program.equalities.push((numbered(terms), *value));
     }
     for (i, row) in program.rows.iter().enumerate() {
@@ -53,7 +61,7 @@ pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
         let Some(block) = home(&row.terms).map(|b| &mut made[b]) else {
             continue;
         };
-        block.rows.push(i as u32);
+        block.rows.push(i);
         block.program.rows.push(Row {
             terms: numbered(&row.terms),
             ..row.clone()
@@ -69,7 +77,7 @@ pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
         .map(|b| sprs::TriMat::new((b.variables.len(), b.variables.len())))
         .collect();
     for (value, (i, j)) in &program.quadratic {
-        entries[of[i] as usize].add_triplet(place[i], place[j], *value);
+        entries[home_of[i]].add_triplet(place[i], place[j], *value);
     }
     for (block, entries) in made.iter_mut().zip(entries) {
         block.program.quadratic = entries.to_csc();
@@ -77,16 +85,13 @@ pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
     made
 }
 
-fn empty(program: &Program, variables: Vec<u32>) -> ProgramBlock {
+fn empty(program: &Program, variables: Vec<usize>) -> ProgramBlock {
     ProgramBlock {
         program: Program {
             variables: variables.len(),
             quadratic: sprs::CsMat::zero((0, 0)),
             factor: Vec::new(),
-            linear: variables
-                .iter()
-                .map(|v| program.linear[*v as usize])
-                .collect(),
+            linear: variables.iter().map(|v| program.linear[*v]).collect(),
             equalities: Vec::new(),
             rows: Vec::new(),
         },

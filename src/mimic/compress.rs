@@ -246,9 +246,9 @@ fn blocks(target: &Target, groups: &Groups, slots: &[usize], used: &[bool]) -> V
         let support = n + slots[bound.group];
         sets.join(bound.anchor.vertices[0].0, support as u32);
     }
-    let vertices = |set: Vec<u32>| -> Vec<usize> {
-        let all = set.into_iter().map(|i| i as usize);
-        all.filter(|i| *i < n && used[*i]).collect()
+    let vertices = |mut set: Vec<usize>| {
+        set.retain(|i| *i < n && used[*i]);
+        set
     };
     let blocks = sets.members().into_iter().map(vertices);
     blocks.filter(|b| !b.is_empty()).collect()

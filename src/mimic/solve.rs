@@ -106,7 +106,7 @@ pub(crate) fn solve_again(
     before: &Solution,
     new_rows: usize,
 ) -> Result<Solution, SolveError> {
-    let changed = |b: &ProgramBlock| b.rows.last().is_some_and(|r| *r as usize >= new_rows);
+    let changed = |b: &ProgramBlock| b.rows.last().is_some_and(|r| *r >= new_rows);
     solve_where(program, before.clone(), &changed)
 }
 
@@ -122,8 +122,8 @@ fn solve_where(
     let solved: Vec<SolvedBlock> = todo.par_iter().map(solve_block).collect::<Result<_, _>>()?;
     solution.z.resize(program.rows.len(), 0.0);
     for (block, part) in todo.iter().zip(&solved) {
-        let place = |to: &mut [f64], at: &[u32], from: &[f64]| {
-            at.iter().zip(from).for_each(|(i, v)| to[*i as usize] = *v);
+        let place = |to: &mut [f64], at: &[usize], from: &[f64]| {
+            at.iter().zip(from).for_each(|(i, v)| to[*i] = *v);
         };
         place(&mut solution.u, &block.variables, &part.u);
         place(&mut solution.z, &block.rows, &part.z);

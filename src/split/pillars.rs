@@ -32,8 +32,7 @@ pub(crate) fn meeting(
     for ((a, b), _) in pairs.iter().zip(met).filter(|(_, met)| *met) {
         sets.join(*a as u32, *b as u32);
     }
-    let positions = |set: Vec<u32>| set.into_iter().map(|k| k as usize).collect();
-    Ok(sets.members().into_iter().map(positions).collect())
+    Ok(sets.members())
 }
 
 /// One pillar, or several whose reliefs meet, with pegs.

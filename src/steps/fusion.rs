@@ -1,7 +1,8 @@
 //! The tear functional and its descent by fusion moves.
 
 use super::min_cut::BinaryEnergy;
-use super::patches::{Patch, Patches, Seam, mixed};
+use super::patches::{Patch, PatchId, Patches, Seam, mixed};
+use crate::index::indices;
 use crate::mesh::DisjointSets;
 
 /// Log depths (of an eye at infinity: `focal` times these) nearer than this are the same: a millionth of a millimetre.
@@ -34,6 +35,16 @@ pub(crate) struct Prices {
     /// Whether sheets keep their depth order along contours.
     pub ordered: bool,
 }
+
+indices! {
+    /// A patch of one support, counted from its first.
+    OwnPatch
+    /// A seam between patches of one support.
+    OwnSeam
+}
+
+/// What the corners of patches might become.
+type Proposal = (OwnPatch, [f64; 3]);
 
 /// Log relief depth over the model's at every corner of every patch.
 pub(crate) type PatchDepths = Vec<[f64; 3]>;
@@ -68,9 +79,8 @@ pub(crate) struct Functional<'a> {
     range: std::ops::Range<usize>,
     /// All seams between them.
     seams: &'a [Seam],
-    /// Seams of patch `i`: `incident[starts[i]..starts[i + 1]]`.
-    incident: Vec<u32>,
-    starts: Vec<u32>,
+    /// Seams of every patch.
+    incident: Vec<Vec<OwnSeam>>,
 }
 
 impl<'a> Functional<'a> {
@@ -78,19 +88,10 @@ impl<'a> Functional<'a> {
     pub(crate) fn new(patches: &'a Patches, prices: Prices, range: std::ops::Range<usize>) -> Self {
         let first = |at: usize| patches.seams.partition_point(|s| s.patches[0].at() < at);
         let seams = &patches.seams[first(range.start)..first(range.end)];
-        let local = |s: &Seam| s.patches.map(|p| p.at() - range.start);
-        let mut starts = vec![0u32; range.len() + 1];
-        seams
-            .iter()
-            .flat_map(local)
-            .for_each(|p| starts[p + 1] += 1);
-        (0..range.len()).for_each(|i| starts[i + 1] += starts[i]);
-        let mut next = starts.clone();
-        let mut incident = vec![0; 2 * seams.len()];
-        for (n, s) in seams.iter().enumerate() {
-            for p in local(s) {
-                incident[next[p] as usize] = n as u32;
-                next[p] += 1;
+        let mut incident = vec![Vec::new(); range.len()];
+        for (n, s) in OwnSeam::all(seams.len()).zip(seams) {
+            for p in s.patches {
+                incident[p.at() - range.start].push(n);
             }
         }
         Self {
@@ -99,7 +100,6 @@ impl<'a> Functional<'a> {
             range,
             seams,
             incident,
-            starts,
         }
     }
 
@@ -128,23 +128,23 @@ impl<'a> Functional<'a> {
         let mut sets = DisjointSets::new(self.range.len());
         for s in self.seams.iter().filter(|s| self.closed(s, field)) {
             let [a, b] = self.local(s);
-            sets.join(a as u32, b as u32);
+            sets.join(a.0, b.0);
         }
         sets.numbers().1
     }
 
     /// Patches that are `wanted`, by piece and neighbourhood.
-    pub(crate) fn regions(&self, pieces: &[u32], wanted: &[bool]) -> Vec<Vec<u32>> {
+    pub(crate) fn regions(&self, pieces: &[u32], wanted: &[bool]) -> Vec<Vec<OwnPatch>> {
         let mut sets = DisjointSets::new(self.range.len());
         for s in self.seams {
             let [a, b] = self.local(s);
             if wanted[a] && wanted[b] && pieces[a] == pieces[b] {
-                sets.join(a as u32, b as u32);
+                sets.join(a.0, b.0);
             }
         }
-        let mut members: Vec<(u32, u32)> = (0..wanted.len() as u32)
-            .filter(|i| wanted[*i as usize])
-            .map(|i| (sets.root(i), i))
+        let mut members: Vec<(u32, OwnPatch)> = OwnPatch::all(wanted.len())
+            .filter(|i| wanted[*i])
+            .map(|i| (sets.root(i.0), i))
             .collect();
         members.sort_unstable();
         members
@@ -157,14 +157,14 @@ impl<'a> Functional<'a> {
     pub(crate) fn join_cheapest(
         &self,
         field: &mut PatchDepths,
-        region: &[u32],
+        region: &[OwnPatch],
         but: &[bool],
     ) -> bool {
-        let own = field[region[0] as usize];
+        let own = field[region[0]];
         let mut levels: Vec<f64> = region
             .iter()
-            .flat_map(|i| self.incident(*i as usize))
-            .map(|n| &self.seams[*n as usize])
+            .flat_map(|i| self.incident(*i))
+            .map(|n| &self.seams[*n])
             .filter(|s| s.hangs_together())
             .flat_map(|s| self.local(s))
             .filter(|j| !but[*j])
@@ -173,10 +173,10 @@ impl<'a> Functional<'a> {
             .collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup_by(|a, b| (*a - *b).abs() <= self.same());
-        let old: Vec<[f64; 3]> = region.iter().map(|i| field[*i as usize]).collect();
+        let old: Vec<[f64; 3]> = region.iter().map(|i| field[*i]).collect();
         let set = |field: &mut PatchDepths, level: f64| {
             for i in region {
-                field[*i as usize] = self.patch(*i as usize).drawn_in(level);
+                field[*i] = self.patch(*i).drawn_in(level);
             }
         };
         let mut best: Option<(f64, f64)> = None;
@@ -189,20 +189,17 @@ impl<'a> Functional<'a> {
         }
         match best {
             Some((_, level)) => set(field, level),
-            None => region
-                .iter()
-                .zip(old)
-                .for_each(|(i, y)| field[*i as usize] = y),
+            None => region.iter().zip(old).for_each(|(i, y)| field[*i] = y),
         }
         best.is_some()
     }
 
-    fn patch(&self, i: usize) -> &Patch {
-        &self.patches.patches[self.range.start + i]
+    fn patch(&self, i: OwnPatch) -> &Patch {
+        &self.patches.patches[self.range.start + i.at()]
     }
 
     /// Tilt and overstepped bounds of one patch.
-    fn unary(&self, i: usize, y: &[f64; 3]) -> f64 {
+    fn unary(&self, i: OwnPatch, y: &[f64; 3]) -> f64 {
         let p = self.patch(i);
         let (lo, hi) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
         if p.even.0 <= lo && hi <= p.even.1 && hi - lo <= self.same() {
@@ -252,9 +249,7 @@ impl<'a> Functional<'a> {
     /// The whole value.
     #[cfg(test)]
     fn value(&self, field: &[[f64; 3]]) -> f64 {
-        let unary: f64 = (0..self.range.len())
-            .map(|i| self.unary(i, &field[i]))
-            .sum();
+        let unary: f64 = self.own_patches().map(|i| self.unary(i, &field[i])).sum();
         let seams: f64 = self
             .seams
             .iter()
@@ -266,52 +261,57 @@ impl<'a> Functional<'a> {
         unary + seams
     }
 
-    fn local(&self, s: &Seam) -> [usize; 2] {
-        s.patches.map(|p| p.at() - self.range.start)
+    /// A patch of the support among its own.
+    pub fn own(&self, p: PatchId) -> OwnPatch {
+        OwnPatch::new(p.at() - self.range.start)
     }
 
-    fn incident(&self, i: usize) -> &[u32] {
-        &self.incident[self.starts[i] as usize..self.starts[i + 1] as usize]
+    fn own_patches(&self) -> impl Iterator<Item = OwnPatch> + use<> {
+        OwnPatch::all(self.range.len())
+    }
+
+    fn local(&self, s: &Seam) -> [OwnPatch; 2] {
+        s.patches.map(|p| self.own(p))
+    }
+
+    fn incident(&self, i: OwnPatch) -> &[OwnSeam] {
+        &self.incident[i]
     }
 
     /// Takes the proposal where that lowers the functional most, over all choices of its patches at once. Gives the patches
-    /// that changed. `variable` is room for one number a patch, all `u32::MAX`, and is left so.
+    /// that changed. `variable` is room for one number a patch, all `None`, and is left so.
     fn fuse(
         &self,
         field: &mut PatchDepths,
-        proposal: &[(u32, [f64; 3])],
-        variable: &mut [u32],
-    ) -> Vec<u32> {
-        let differs = |(i, y): &&(u32, [f64; 3])| {
-            (0..3).any(|k| (y[k] - field[*i as usize][k]).abs() > self.same())
-        };
-        let members: Vec<(u32, [f64; 3])> = proposal.iter().filter(differs).copied().collect();
+        proposal: &[Proposal],
+        variable: &mut [Option<usize>],
+    ) -> Vec<OwnPatch> {
+        let differs =
+            |(i, y): &&Proposal| (0..3).any(|k| (y[k] - field[*i][k]).abs() > self.same());
+        let members: Vec<Proposal> = proposal.iter().filter(differs).copied().collect();
         for (v, (i, _)) in members.iter().enumerate() {
-            variable[*i as usize] = v as u32;
+            variable[*i] = Some(v);
         }
         let mut energy = BinaryEnergy::new(members.len());
         for (v, (i, y)) in members.iter().enumerate() {
-            let i = *i as usize;
-            energy.unary(v, self.unary(i, &field[i]), self.unary(i, y));
-            for n in self.incident(i) {
-                self.add_seam(&mut energy, *n as usize, field, &members, variable, v);
+            energy.unary(v, self.unary(*i, &field[*i]), self.unary(*i, y));
+            for n in self.incident(*i) {
+                self.add_seam(&mut energy, *n, field, &members, variable, v);
             }
         }
-        members
-            .iter()
-            .for_each(|(i, _)| variable[*i as usize] = u32::MAX);
+        members.iter().for_each(|(i, _)| variable[*i] = None);
         let taken = energy.minimise();
-        let mut changed: Vec<(u32, [f64; 3])> = members
+        let mut changed: Vec<Proposal> = members
             .into_iter()
             .zip(taken)
             .filter_map(|(m, take)| take.then_some(m))
             .collect();
-        let ids: Vec<u32> = changed.iter().map(|c| c.0).collect();
+        let ids: Vec<OwnPatch> = changed.iter().map(|c| c.0).collect();
         let before = self.share(&ids, field);
-        let swap = |field: &mut PatchDepths, changed: &mut [(u32, [f64; 3])]| {
+        let swap = |field: &mut PatchDepths, changed: &mut [Proposal]| {
             changed
                 .iter_mut()
-                .for_each(|(i, y)| std::mem::swap(&mut field[*i as usize], y));
+                .for_each(|(i, y)| std::mem::swap(&mut field[*i], y));
         };
         swap(field, &mut changed);
         // Ties that rounding decides would go to and fro for ever.
@@ -324,22 +324,19 @@ impl<'a> Functional<'a> {
     }
 
     /// What some patches and all their seams cost.
-    fn share(&self, members: &[u32], field: &PatchDepths) -> f64 {
-        let mut seams: Vec<u32> = members
+    fn share(&self, members: &[OwnPatch], field: &PatchDepths) -> f64 {
+        let mut seams: Vec<OwnSeam> = members
             .iter()
-            .flat_map(|i| self.incident(*i as usize))
+            .flat_map(|i| self.incident(*i))
             .copied()
             .collect();
         seams.sort_unstable();
         seams.dedup();
-        let own: f64 = members
-            .iter()
-            .map(|i| self.unary(*i as usize, &field[*i as usize]))
-            .sum();
+        let own: f64 = members.iter().map(|i| self.unary(*i, &field[*i])).sum();
         let between: f64 = seams
             .iter()
             .map(|n| {
-                let s = &self.seams[*n as usize];
+                let s = &self.seams[*n];
                 let [a, b] = self.local(s);
                 self.seam(s, &field[a], &field[b])
             })
@@ -351,50 +348,52 @@ impl<'a> Functional<'a> {
     fn add_seam(
         &self,
         energy: &mut BinaryEnergy,
-        n: usize,
+        n: OwnSeam,
         field: &PatchDepths,
-        members: &[(u32, [f64; 3])],
-        variable: &[u32],
+        members: &[Proposal],
+        variable: &[Option<usize>],
         v: usize,
     ) {
         let s = &self.seams[n];
         let [a, b] = self.local(s);
-        let [i, j] = [variable[a], variable[b]];
         let (old_a, old_b) = (&field[a], &field[b]);
         let old = self.seam(s, old_a, old_b);
-        if i == u32::MAX {
-            energy.unary(v, old, self.seam(s, old_a, &members[v].1));
-        } else if j == u32::MAX {
-            energy.unary(v, old, self.seam(s, &members[v].1, old_b));
-        } else if v as u32 == i.max(j) {
-            let (new_a, new_b) = (&members[i as usize].1, &members[j as usize].1);
-            let cost = [
-                old,
-                self.seam(s, old_a, new_b),
-                self.seam(s, new_a, old_b),
-                self.seam(s, new_a, new_b),
-            ];
-            energy.pair(i as usize, j as usize, cost);
+        match [variable[a], variable[b]] {
+            [None, _] => energy.unary(v, old, self.seam(s, old_a, &members[v].1)),
+            [_, None] => energy.unary(v, old, self.seam(s, &members[v].1, old_b)),
+            [Some(i), Some(j)] if v == i.max(j) => {
+                let (new_a, new_b) = (&members[i].1, &members[j].1);
+                let cost = [
+                    old,
+                    self.seam(s, old_a, new_b),
+                    self.seam(s, new_a, old_b),
+                    self.seam(s, new_a, new_b),
+                ];
+                energy.pair(i, j, cost);
+            }
+            [Some(_), Some(_)] => {}
         }
     }
 
     /// Every level with the patches it may be proposed to: a constant, drawn in to the layer at corners.
-    fn levels(&self) -> Vec<Vec<(u32, [f64; 3])>> {
+    fn levels(&self) -> Vec<Vec<Proposal>> {
         let margin = DRAWN_IN * self.patches.width;
         let spacing = self.patches.width / LEVELS;
-        let reach = |i: usize| {
+        let reach = |i: OwnPatch| {
             let (lo, hi) = self.patch(i).even;
             (lo.min(hi) - margin, lo.max(hi) + margin)
         };
-        let lo = (0..self.range.len())
+        let lo = self
+            .own_patches()
             .map(|i| reach(i).0)
             .fold(f64::INFINITY, f64::min);
-        let hi = (0..self.range.len())
+        let hi = self
+            .own_patches()
             .map(|i| reach(i).1)
             .fold(f64::NEG_INFINITY, f64::max);
         let count = ((hi - lo) / spacing).clamp(0.0, 5000.0) as usize + 1;
         let mut levels = vec![Vec::new(); count];
-        for i in 0..self.range.len() {
+        for i in self.own_patches() {
             let (first, last) = reach(i);
             let p = self.patch(i);
             let first = ((first - lo) / spacing).ceil().max(0.0) as usize;
@@ -403,7 +402,7 @@ impl<'a> Functional<'a> {
                 let level = lo + spacing * k as f64;
                 let even = p.even.0 <= level && level <= p.even.1;
                 let y = if even { [level; 3] } else { p.drawn_in(level) };
-                members.push((i as u32, y));
+                members.push((i, y));
             }
         }
         levels
@@ -413,7 +412,7 @@ impl<'a> Functional<'a> {
     /// reach since it was last tried.
     pub(crate) fn descend(&self, field: &mut PatchDepths) {
         let levels = self.levels();
-        let mut variable = vec![u32::MAX; self.range.len()];
+        let mut variable = vec![None; self.range.len()];
         // The move at which each patch last changed, and at which each level was last tried.
         let mut changed_at = vec![0u32; self.range.len()];
         let mut tried_at = vec![0u32; levels.len()];
@@ -421,21 +420,21 @@ impl<'a> Functional<'a> {
         for sweep in 0..SWEEPS {
             let mut any = false;
             for (k, members) in levels.iter().enumerate() {
-                let stale = |i: usize| changed_at[i] > tried_at[k];
-                let near = |i: usize| {
+                let stale = |i: OwnPatch| changed_at[i] > tried_at[k];
+                let near = |i: OwnPatch| {
                     self.incident(i)
                         .iter()
-                        .flat_map(|n| self.local(&self.seams[*n as usize]))
+                        .flat_map(|n| self.local(&self.seams[*n]))
                         .any(stale)
                 };
-                if sweep > 0 && !members.iter().any(|m| near(m.0 as usize)) {
+                if sweep > 0 && !members.iter().any(|m| near(m.0)) {
                     continue;
                 }
                 now += 1;
                 tried_at[k] = now;
                 let changed = self.fuse(field, members, &mut variable);
                 any |= !changed.is_empty();
-                changed.iter().for_each(|i| changed_at[*i as usize] = now);
+                changed.iter().for_each(|i| changed_at[*i] = now);
             }
             if !any {
                 return;

@@ -41,7 +41,7 @@ pub(crate) fn absorb_thin(
         let mut changed = false;
         for region in functional.regions(&pieces, &thin) {
             if functional.join_cheapest(field, &region, &thin) {
-                region.iter().for_each(|i| absorbed[*i as usize] = true);
+                region.iter().for_each(|i| absorbed[*i] = true);
                 changed = true;
             }
         }
@@ -84,6 +84,11 @@ impl Raster {
         raster
     }
 
+    /// Where a pixel of the raster stands in its list.
+    fn place(&self, p: IVec2) -> usize {
+        (p.y * self.size.x + p.x) as usize
+    }
+
     fn centre(&self, at: IVec2) -> DVec2 {
         self.corner + (at.as_dvec2() + 0.5) * self.pixel
     }
@@ -109,7 +114,8 @@ impl Raster {
         for y in lo.y..=hi.y {
             for x in lo.x..=hi.x {
                 if inside(DVec2::new(f64::from(x), f64::from(y))) {
-                    self.patch[(y * self.size.x + x) as usize] = Some(patch);
+                    let at = self.place(IVec2::new(x, y));
+                    self.patch[at] = Some(patch);
                 }
             }
         }
@@ -117,7 +123,7 @@ impl Raster {
 
     fn at(&self, p: IVec2) -> Option<PatchId> {
         let inside = p.cmpge(IVec2::ZERO).all() && p.cmplt(self.size).all();
-        inside.then(|| self.patch[(p.y * self.size.x + p.x) as usize])?
+        inside.then(|| self.patch[self.place(p)])?
     }
 
     fn pixels(&self) -> impl Iterator<Item = (IVec2, PatchId)> {
@@ -132,8 +138,7 @@ impl Raster {
     /// Whether at least half of a patch's pixels lie where no disc of the narrowest width fits between tears; index: patch
     /// of the support.
     fn thin(&self, target: &Target, functional: &Functional, pieces: &[u32]) -> Vec<bool> {
-        let first = functional.range().start;
-        let piece = |p: PatchId| pieces[p.at() - first];
+        let piece = |p: PatchId| pieces[functional.own(p)];
         let depth = |patch: PatchId, at: IVec2| {
             let face = functional.patches().patches[patch].face;
             anchor(target, face, self.centre(at)).1
@@ -144,10 +149,9 @@ impl Raster {
             })
         };
         let around = [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y];
-        let index = |p: IVec2| (p.y * self.size.x + p.x) as usize;
         let mut edge = vec![false; self.patch.len()];
         for (at, p) in self.pixels() {
-            edge[index(at)] = around.iter().any(|by| torn(at, p, *by));
+            edge[self.place(at)] = around.iter().any(|by| torn(at, p, *by));
         }
         // A disc's centre lies a radius from every torn edge of its own piece, half a pixel beyond the edge pixels.
         let radius = PIXELS / 2.0;
@@ -160,16 +164,16 @@ impl Raster {
         let same = |at: IVec2, p: PatchId| self.at(at).is_some_and(|q| piece(q) == piece(p));
         let mut centre = vec![false; self.patch.len()];
         for (at, p) in self.pixels() {
-            centre[index(at)] = !near
+            centre[self.place(at)] = !near
                 .iter()
-                .any(|by| same(at + *by, p) && edge[index(at + *by)]);
+                .any(|by| same(at + *by, p) && edge[self.place(at + *by)]);
         }
         let mut count = vec![(0u32, 0u32); functional.range().len()];
         for (at, p) in self.pixels() {
             let fits = wide
                 .iter()
-                .any(|by| same(at + *by, p) && centre[index(at + *by)]);
-            let slot = &mut count[p.at() - first];
+                .any(|by| same(at + *by, p) && centre[self.place(at + *by)]);
+            let slot = &mut count[functional.own(p)];
             slot.0 += u32::from(!fits);
             slot.1 += 1;
         }

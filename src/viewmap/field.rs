@@ -44,8 +44,8 @@ impl<'a> SupportField<'a> {
 
     /// The ray's parameter at the plane of a face of the supports; not finite if they are parallel.
     pub fn facet_depth(&self, facet: FacetId, origin: DVec3, direction: DVec3) -> f64 {
-        let normal = self.mesh.area_vector(FaceId(facet.0));
-        let corner = self.mesh.corners(FaceId(facet.0))[0];
+        let normal = self.mesh.area_vector(facet.face());
+        let corner = self.mesh.corners(facet.face())[0];
         normal.dot(corner - origin) / normal.dot(direction)
     }
 

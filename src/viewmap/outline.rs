@@ -121,8 +121,8 @@ fn is_bent(field: &SupportField, sides: &[HalfEdge]) -> bool {
     let normal = |h: &HalfEdge| field.mesh.normal(h.face);
     let apart = |h: &HalfEdge| normal(h).distance(normal(&sides[0])) > PLANE;
     let parted =
-        |h: &HalfEdge| field.part(FacetId(h.face.0)) != field.part(FacetId(sides[0].face.0));
-    (field.is_shell(FacetId(sides[0].face.0)) && sides.iter().any(apart))
+        |h: &HalfEdge| field.part(FacetId::of(h.face)) != field.part(FacetId::of(sides[0].face));
+    (field.is_shell(FacetId::of(sides[0].face)) && sides.iter().any(apart))
         || sides.iter().any(parted)
 }
 

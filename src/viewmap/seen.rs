@@ -119,8 +119,8 @@ impl Looking<'_> {
         Cell {
             face: self.seen_face(centre),
             support,
-            facet: hit.map(|h| FacetId(h.face.0)),
-            leaves: wall.map(|(_, leaves)| FacetId(leaves.face.0)),
+            facet: hit.map(|h| FacetId::of(h.face)),
+            leaves: wall.map(|(_, leaves)| FacetId::of(leaves.face)),
             support_depth: hit.map_or(f64::INFINITY, |h| h.t),
             ..map.cells[c]
         }

@@ -443,8 +443,8 @@ fn outlines_are_cut_at_their_lowest_ear() {
     let step = [[0, 0], [2, 0], [4, 0], [4, 1], [2, 1], [2, 3], [0, 3]];
     let step = step.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
     let triangles = triangulate_outline(&step);
-    let area = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|k| step[k as usize]);
+    let area = |t: &[usize; 3]| {
+        let [a, b, c] = t.map(|k| step[k]);
         (b - a).perp_dot(c - a) / 2.0
     };
     assert!(triangles.iter().all(|t| area(t) > 0.0), "{triangles:?}");

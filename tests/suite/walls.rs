@@ -94,7 +94,10 @@ fn reliefs_in_walls_leave_their_core_on_every_ray() {
                 continue;
             };
             // Thin cells are merged away, so that some reach beyond their facet by two micrometres.
-            let planes = (Some(FacetId(first.face.0)), Some(FacetId(leaves.face.0)));
+            let planes = (
+                Some(FacetId::of(first.face)),
+                Some(FacetId::of(leaves.face)),
+            );
             if planes != (cell.facet, cell.leaves) {
                 merged += 1;
                 continue;

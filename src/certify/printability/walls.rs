@@ -254,12 +254,9 @@ fn away_from_wider(
 
 /// Groups of samples that are linked by steps of `link` or less, the largest first.
 fn patches(samples: &[Sample], list: &[usize], link: f64) -> Vec<Vec<usize>> {
-    let mut cells: BTreeMap<Bin, Vec<u32>> = BTreeMap::new();
+    let mut cells: BTreeMap<Bin, Vec<usize>> = BTreeMap::new();
     for (k, i) in list.iter().enumerate() {
-        cells
-            .entry(cell(samples[*i].at, link))
-            .or_default()
-            .push(k as u32);
+        cells.entry(cell(samples[*i].at, link)).or_default().push(k);
     }
     let mut sets = DisjointSets::new(list.len());
     for (c, members) in &cells {
@@ -268,18 +265,15 @@ fn patches(samples: &[Sample], list: &[usize], link: f64) -> Vec<Vec<usize>> {
                 .iter()
                 .flat_map(|a| other.iter().map(move |b| (*a, *b)))
             {
-                let at = |k: u32| samples[list[k as usize]].at;
+                let at = |k: usize| samples[list[k]].at;
                 if at(a).distance_squared(at(b)) <= link * link {
-                    sets.join(a, b);
+                    sets.join(a as u32, b as u32);
                 }
             }
         }
     }
-    let (count, number) = sets.numbers();
-    let mut patches = vec![Vec::new(); count];
-    for (k, i) in list.iter().enumerate() {
-        patches[number[k] as usize].push(*i);
-    }
+    let of_set = |set: Vec<usize>| set.into_iter().map(|k| list[k]).collect();
+    let mut patches: Vec<Vec<usize>> = sets.members().into_iter().map(of_set).collect();
     patches.sort_by_key(|p| std::cmp::Reverse(p.len()));
     patches
 }

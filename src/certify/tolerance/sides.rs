@@ -156,17 +156,17 @@ pub(crate) fn critical(
     let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); points];
     for (n, (rate, i)) in order.iter().enumerate() {
         let side = &sides[*i];
-        let roots = side.points.map(|p| sets.root(p.0));
+        let roots = side.points.map(|p| PointId(sets.root(p.0)));
         let [a, b] = side.ends;
-        let grown = roots.map(|r| boxes[r as usize]);
+        let grown = roots.map(|r| boxes[r]);
         let lo = grown[0].0.min(grown[1].0).min(a.min(b));
         let hi = grown[0].1.max(grown[1].1).max(a.max(b));
-        sets.join(roots[0], roots[1]);
-        let root = sets.root(roots[0]);
-        boxes[root as usize] = (lo, hi);
+        sets.join(roots[0].0, roots[1].0);
+        let root = PointId(sets.root(roots[0].0));
+        boxes[root] = (lo, hi);
         if (hi - lo).length() >= extent {
             let of_cut = order[..=n].iter().map(|o| o.1);
-            let of_cut = of_cut.filter(|i| sets.root(sides[*i].points[0].0) == root);
+            let of_cut = of_cut.filter(|i| sets.root(sides[*i].points[0].0) == root.0);
             let longest = of_cut.max_by(|i, j| sides[*i].length().total_cmp(&sides[*j].length()));
             return longest.map(|side| Critical { rate: *rate, side });
         }

@@ -229,12 +229,10 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     for [front, back] in problem.conditions.all.iter().filter_map(sides) {
         blocks.join(front, back);
     }
-    let held = |set: &[u32]| {
-        !problem.options.group_scales && set.last().is_some_and(|last| *last as usize >= n)
-    };
-    let block = |set: Vec<u32>| {
-        let all = set.into_iter().map(|i| i as usize);
-        let b: Vec<usize> = all.filter(|i| *i < n && areas[*i] > 0.0).collect();
+    let held =
+        |set: &[usize]| !problem.options.group_scales && set.last().is_some_and(|last| *last >= n);
+    let block = |mut b: Vec<usize>| {
+        b.retain(|i| *i < n && areas[*i] > 0.0);
         let total: f64 = b.iter().map(|i| areas[*i]).sum();
         let terms: Vec<_> = b.iter().map(|i| (*i, areas[*i] / total)).collect();
         let missing: f64 = terms.iter().map(|(i, a)| a * (1.0 - start[*i])).sum();

@@ -20,7 +20,7 @@ pub(crate) struct Factor {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
     /// Supernode of every column of `L`.
-    supernode: Vec<u32>,
+    supernode: Vec<usize>,
     /// Column of `L` of every unknown.
     place: Vec<usize>,
 }
@@ -68,7 +68,7 @@ impl Factor {
         let tree = supernodes(&symbolic)?;
         let mut supernode = vec![0; n];
         for s in 0..tree.n_supernodes() {
-            supernode[tree.supernode_begin()[s]..tree.supernode_end()[s]].fill(s as u32);
+            supernode[tree.supernode_begin()[s]..tree.supernode_end()[s]].fill(s);
         }
         Some(Self {
             symbolic,
@@ -101,11 +101,11 @@ impl Factor {
         }
         let (mut parts, mut values, mut local) = (Vec::new(), Vec::new(), Vec::new());
         for s in self.path(tree, terms) {
-            let node = tree.supernode(s as usize);
+            let node = tree.supernode(s);
             let (start, pattern) = (node.start(), node.pattern());
-            let width = tree.supernode_end()[s as usize] - start;
+            let width = tree.supernode_end()[s] - start;
             let height = width + pattern.len();
-            let columns = &self.values[tree.col_ptr_for_val()[s as usize]..][..width * height];
+            let columns = &self.values[tree.col_ptr_for_val()[s]..][..width * height];
             local.clear();
             local.extend_from_slice(&work[start..start + width]);
             local.resize(height, 0.0);
@@ -119,22 +119,22 @@ impl Factor {
             for (i, y) in pattern.iter().zip(&local[width..]) {
                 work[*i] += y;
             }
-            parts.push((s, values.len() as u32));
+            parts.push((s as u32, values.len() as u32));
             values.extend_from_slice(&local[..width]);
         }
         Half { parts, values }
     }
 
     /// Supernodes on the ways from the terms to the root, rising.
-    fn path(&self, tree: &SymbolicSupernodalCholesky<usize>, terms: &[(usize, f64)]) -> Vec<u32> {
+    fn path(&self, tree: &SymbolicSupernodalCholesky<usize>, terms: &[(usize, f64)]) -> Vec<usize> {
         let (mut path, mut seen) = (Vec::new(), vec![false; tree.n_supernodes()]);
         for (i, _) in terms {
             let mut up = Some(self.supernode[self.place[*i]]);
             // The ways meet for good.
-            while let Some(s) = up.filter(|s| !seen[*s as usize]) {
-                seen[s as usize] = true;
+            while let Some(s) = up.filter(|s| !seen[*s]) {
+                seen[s] = true;
                 path.push(s);
-                let above = tree.supernode(s as usize).pattern().first();
+                let above = tree.supernode(s).pattern().first();
                 up = above.map(|c| self.supernode[*c]);
             }
         }

@@ -20,7 +20,7 @@ pub(crate) struct Pinned {
     /// Sums of the rows of `P`.
     sums: Vec<f64>,
     /// Pin of every unknown, if its part has one.
-    pin: Vec<Option<u32>>,
+    pin: Vec<Option<usize>>,
     /// Pinned unknowns.
     pub places: Vec<usize>,
     /// The weight of pins.
@@ -72,7 +72,7 @@ impl Pinned {
         let pull = self.times(&self.direction);
         for (i, pin) in self.pin.iter().enumerate() {
             if let Some(p) = pin {
-                self.stiffness[*p as usize] += self.direction[i] * pull[i];
+                self.stiffness[*p] += self.direction[i] * pull[i];
             }
         }
         for (s, p) in self.stiffness.iter_mut().zip(&self.places) {
@@ -93,7 +93,7 @@ impl Pinned {
         let mut sums = vec![0.0; self.places.len()];
         for ((pin, n), x) in self.pin.iter().zip(&self.direction).zip(x) {
             if let Some(p) = pin {
-                sums[*p as usize] += n * x;
+                sums[*p] += n * x;
             }
         }
         sums
@@ -101,15 +101,14 @@ impl Pinned {
 
     /// `n'g` of a sparse vector, only parts that it has to do with.
     pub(crate) fn along_terms(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
-        let share = |(i, v): &(usize, f64)| Some((self.pin[*i]? as usize, v * self.direction[*i]));
+        let share = |(i, v): &(usize, f64)| Some((self.pin[*i]?, v * self.direction[*i]));
         gathered(terms.iter().filter_map(share).collect())
     }
 
     /// `n t`.
     pub(crate) fn moved(&self, t: &[f64]) -> Vec<f64> {
         let by = self.pin.iter().zip(&self.direction);
-        by.map(|(pin, n)| pin.map_or(0.0, |p| n * t[p as usize]))
-            .collect()
+        by.map(|(pin, n)| pin.map_or(0.0, |p| n * t[p])).collect()
     }
 
     /// The least value of every unknown and its neighbours; lone unknowns are nobody's concern.
@@ -174,7 +173,7 @@ fn times(upper: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
 }
 
 /// The pin of every unknown, and the pinned ones: the first of every part of several, and lone ones below `soft`.
-fn pins(upper: &CsMat<f64>, soft: f64) -> (Vec<Option<u32>>, Vec<usize>) {
+fn pins(upper: &CsMat<f64>, soft: f64) -> (Vec<Option<usize>>, Vec<usize>) {
     let n = upper.cols();
     let (mut parts, mut diagonal) = (DisjointSets::new(n), vec![0.0; n]);
     for (v, (i, j)) in upper {
@@ -186,10 +185,9 @@ fn pins(upper: &CsMat<f64>, soft: f64) -> (Vec<Option<u32>>, Vec<usize>) {
     }
     let (mut pin, mut places) = (vec![None; n], Vec::new());
     for part in parts.members() {
-        let first = part[0] as usize;
+        let first = part[0];
         if part.len() > 1 || diagonal[first] < soft {
-            part.iter()
-                .for_each(|i| pin[*i as usize] = Some(places.len() as u32));
+            part.iter().for_each(|i| pin[*i] = Some(places.len()));
             places.push(first);
         }
     }

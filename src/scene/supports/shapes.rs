@@ -2,6 +2,7 @@
 
 pub(crate) use crate::geom::{contains, gap, narrowest, to_segment};
 use crate::geom::{polygon_area, segment_crossing};
+use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use crate::mesh::polygon::triangulate_outline;
 use glam::{DVec2, DVec3};
@@ -72,7 +73,7 @@ pub(crate) fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
 
 /// The closed prism over a simple counter-clockwise polygon, outward oriented. Vertices: the ring at the bottom, then the ring at the top.
 pub(crate) fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
-    let n = profile.len() as u32;
+    let n = profile.len();
     let ring = |z: f64| profile.iter().map(move |p| DVec3::new(p.x, p.y, z));
     let vertices = ring(bottom).chain(ring(top)).collect();
     let mut faces = Vec::new();
@@ -85,7 +86,11 @@ pub(crate) fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
         faces.push([i, j, j + n]);
         faces.push([i, j + n, i + n]);
     }
-    TriMesh::new(vertices, faces)
+    let faces = faces.into_iter().map(|f| f.map(VertexId::new));
+    TriMesh {
+        vertices,
+        faces: faces.collect(),
+    }
 }
 
 /// Distance of a point from a polygon, 0 inside.

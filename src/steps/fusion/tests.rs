@@ -189,7 +189,7 @@ fn start(sheet: &TriangleSheet, patches: &Patches) -> PatchDepths {
 fn labels(functional: &Functional, start: &PatchDepths) -> Vec<Vec<[f64; 3]>> {
     let mut labels: Vec<Vec<[f64; 3]>> = start.iter().map(|y| vec![*y]).collect();
     for (i, y) in functional.levels().into_iter().flatten() {
-        labels[i as usize].push(y);
+        labels[i].push(y);
     }
     labels
 }
@@ -216,7 +216,7 @@ fn optimum(f: &Functional, labels: &[Vec<[f64; 3]>]) -> f64 {
             }
             longer.extend(own.iter().map(|y| {
                 let seam = |(j, s): &(usize, &Seam)| f.seam(s, &labels[*j][label[*j]], y);
-                before + f.unary(i, y) + sides.iter().map(seam).sum::<f64>()
+                before + f.unary(OwnPatch::new(i), y) + sides.iter().map(seam).sum::<f64>()
             }));
         }
         (open, table) = ([&open[..], &[i]].concat(), longer);

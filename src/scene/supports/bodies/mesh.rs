@@ -87,10 +87,10 @@ fn solid(
 
 /// A surface with a border made solid: a copy of it `by` away, and walls between the borders.
 fn thickened(mesh: &TriMesh, by: DVec3) -> TriMesh {
-    let n = mesh.vertices.len() as u32;
+    let n = mesh.vertices.len();
     let mut solid = mesh.clone();
     solid.vertices.extend(mesh.vertices.iter().map(|v| *v + by));
-    let behind = |v: VertexId| VertexId(v.0 + n);
+    let behind = |v: VertexId| v.plus(n);
     let back = mesh.faces.iter().map(|f| [f[2], f[1], f[0]].map(behind));
     solid.faces.extend(back);
     for sides in Edges::new(mesh).iter().filter(|sides| sides.len() == 1) {

@@ -53,8 +53,8 @@ pub(crate) fn strips<'r>(
     (1..count).for_each(|k| middles.push(middles[k as usize - 1] + step(k - 1)));
     let n = count as usize;
     let middle = (middles[(n - 1) / 2] + middles[n / 2]) / 2.0;
-    let strip = |k: u32| {
-        let at = middles[k as usize] - middle;
+    let strip = |(k, at): (u32, &DVec2)| {
+        let at = *at - middle;
         // In the frame x is to the right and z towards the viewer.
         let turned = DMat4::from_rotation_y(angle(k));
         let moved = DMat4::from_translation(DVec3::new(at.x, 0.0, at.y));
@@ -68,7 +68,7 @@ pub(crate) fn strips<'r>(
             )
         }
     };
-    Some((0..count).map(strip).collect())
+    Some((0..count).zip(&middles).map(strip).collect())
 }
 
 /// A box behind its face.

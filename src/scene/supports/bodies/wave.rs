@@ -97,7 +97,8 @@ fn block(
             }
         }
     }
-    let behind = |v: VertexId| VertexId((columns + 1) * (rows + 1) + v.0);
+    let front = mesh.vertices.len() / 2;
+    let behind = |v: VertexId| v.plus(front);
     let at = |i: u32, j: u32| VertexId(j * (columns + 1) + i);
     let mut quad = |[a, b, c, d]: [VertexId; 4]| mesh.faces.extend([[a, b, c], [a, c, d]]);
     for j in 0..rows {
