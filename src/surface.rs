@@ -10,7 +10,7 @@
 
 use crate::groups::Groups;
 use crate::index::{FaceId, GroupId, VertexId};
-use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, picked};
 use crate::mimic::Depths;
 use crate::sight::Sight;
 use crate::steps::Torn;
@@ -311,14 +311,6 @@ fn original(model: &PlacedModel) -> Cow<'_, Original> {
             lowered_from: None,
         }),
     }
-}
-
-/// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
-    if list.is_empty() {
-        return Vec::new();
-    }
-    vertices.iter().map(|v| list[*v]).collect()
 }
 
 fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {

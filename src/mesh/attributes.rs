@@ -141,3 +141,11 @@ impl Original {
         model.faces.iter().map(find).collect()
     }
 }
+
+/// Entries of a list that is empty or has one for every vertex.
+pub fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
+    if list.is_empty() {
+        return Vec::new();
+    }
+    vertices.iter().map(|v| list[*v]).collect()
+}

@@ -18,7 +18,7 @@ pub mod topology;
 mod tri_mesh;
 pub mod weld;
 
-pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar};
+pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar, picked};
 pub use defects::{Defect, DefectKind, check};
 pub use intersect::self_intersections;
 pub use mend::{Mended, mend};

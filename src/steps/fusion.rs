@@ -44,7 +44,7 @@ indices! {
 }
 
 /// What the corners of patches might become.
-type Proposal = (OwnPatch, [f64; 3]);
+type LevelProposal = (OwnPatch, [f64; 3]);
 
 /// Log relief depth over the model's at every corner of every patch.
 pub(crate) type PatchDepths = Vec<[f64; 3]>;
@@ -262,7 +262,7 @@ impl<'a> Functional<'a> {
     }
 
     /// A patch of the support among its own.
-    pub fn own(&self, p: PatchId) -> OwnPatch {
+    pub(crate) fn own(&self, p: PatchId) -> OwnPatch {
         OwnPatch::new(p.at() - self.range.start)
     }
 
@@ -283,12 +283,12 @@ impl<'a> Functional<'a> {
     fn fuse(
         &self,
         field: &mut PatchDepths,
-        proposal: &[Proposal],
+        proposal: &[LevelProposal],
         variable: &mut [Option<usize>],
     ) -> Vec<OwnPatch> {
         let differs =
-            |(i, y): &&Proposal| (0..3).any(|k| (y[k] - field[*i][k]).abs() > self.same());
-        let members: Vec<Proposal> = proposal.iter().filter(differs).copied().collect();
+            |(i, y): &&LevelProposal| (0..3).any(|k| (y[k] - field[*i][k]).abs() > self.same());
+        let members: Vec<LevelProposal> = proposal.iter().filter(differs).copied().collect();
         for (v, (i, _)) in members.iter().enumerate() {
             variable[*i] = Some(v);
         }
@@ -301,14 +301,14 @@ impl<'a> Functional<'a> {
         }
         members.iter().for_each(|(i, _)| variable[*i] = None);
         let taken = energy.minimise();
-        let mut changed: Vec<Proposal> = members
+        let mut changed: Vec<LevelProposal> = members
             .into_iter()
             .zip(taken)
             .filter_map(|(m, take)| take.then_some(m))
             .collect();
         let ids: Vec<OwnPatch> = changed.iter().map(|c| c.0).collect();
         let before = self.share(&ids, field);
-        let swap = |field: &mut PatchDepths, changed: &mut [Proposal]| {
+        let swap = |field: &mut PatchDepths, changed: &mut [LevelProposal]| {
             changed
                 .iter_mut()
                 .for_each(|(i, y)| std::mem::swap(&mut field[*i], y));
@@ -350,7 +350,7 @@ impl<'a> Functional<'a> {
         energy: &mut BinaryEnergy,
         n: OwnSeam,
         field: &PatchDepths,
-        members: &[Proposal],
+        members: &[LevelProposal],
         variable: &[Option<usize>],
         v: usize,
     ) {
@@ -376,7 +376,7 @@ impl<'a> Functional<'a> {
     }
 
     /// Every level with the patches it may be proposed to: a constant, drawn in to the layer at corners.
-    fn levels(&self) -> Vec<Vec<Proposal>> {
+    fn levels(&self) -> Vec<Vec<LevelProposal>> {
         let margin = DRAWN_IN * self.patches.width;
         let spacing = self.patches.width / LEVELS;
         let reach = |i: OwnPatch| {

@@ -83,7 +83,7 @@ enum Parent {
 }
 
 #[derive(Clone, Copy)]
-struct Node {
+struct FlowNode {
     tree: Tree,
     parent: Parent,
     /// What is left of the arc from the source if positive, to the sink if negative.
@@ -102,7 +102,7 @@ struct Arc {
 }
 
 struct Flow {
-    nodes: Vec<Node>,
+    nodes: Vec<FlowNode>,
     /// Arcs by tail: those of node `v` are `starts[v]..starts[v + 1]`.
     arcs: Vec<Arc>,
     starts: Vec<ArcId>,
@@ -147,7 +147,7 @@ impl Flow {
                 0 => Tree::Free,
                 _ => Tree::Sink,
             };
-            Node {
+            FlowNode {
                 tree,
                 parent: if terminal == 0 {
                     Parent::None
@@ -160,7 +160,7 @@ impl Flow {
                 active: terminal != 0,
             }
         };
-        let nodes: Vec<Node> = tilt.iter().map(node).collect();
+        let nodes: Vec<FlowNode> = tilt.iter().map(node).collect();
         let queue = NodeId::all(nodes.len()).filter(|v| nodes[*v].active);
         Self {
             queue: queue.collect(),
@@ -224,7 +224,7 @@ impl Flow {
     /// Lets the tree of `v` take in free neighbours until it meets the other one; gives the arc from the source's tree to the
     /// sink's.
     fn grow(&mut self, v: NodeId) -> Option<ArcId> {
-        let Node {
+        let FlowNode {
             tree,
             distance,
             time,
@@ -333,7 +333,7 @@ impl Flow {
         self.nodes[v].tree = Tree::Free;
         for a in self.arcs_of(v) {
             let head = self.arcs[a].head;
-            let Node {
+            let FlowNode {
                 tree: other,
                 parent,
                 ..

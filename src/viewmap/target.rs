@@ -3,7 +3,7 @@
 use crate::bvh::Bvh;
 use crate::geom::{ImagePlane, orient};
 use crate::index::{FaceId, VertexId};
-use crate::mesh::{Edges, TriMesh};
+use crate::mesh::{Edges, TriMesh, picked};
 use crate::view::Marks;
 use glam::DVec2;
 
@@ -106,12 +106,4 @@ impl Target {
         let turn = orient(a, b, c);
         turn > 0.0 || (turn < 0.0 && !self.closed)
     }
-}
-
-/// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
-    if list.is_empty() {
-        return Vec::new();
-    }
-    vertices.iter().map(|v| list[*v]).collect()
 }

@@ -1,7 +1,7 @@
 //! `detail`: models with fewer vertices for quick looks, with all that is said of their vertices.
 
 use crate::index::VertexId;
-use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, simplified};
+use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, picked, simplified};
 use crate::scene::defaults;
 use crate::scene::text::{Field, Reader};
 use crate::view::Marks;
@@ -102,12 +102,4 @@ fn scalars(original: &Original, count: usize, kept: &[VertexId]) -> Vec<VertexSc
     };
     let all = original.attributes.scalars.iter();
     all.filter_map(scalar).collect()
-}
-
-/// Entries of a list that is empty or has one for every vertex.
-fn picked<T: Copy>(list: &[T], vertices: &[VertexId]) -> Vec<T> {
-    if list.is_empty() {
-        return Vec::new();
-    }
-    vertices.iter().map(|v| list[*v]).collect()
 }

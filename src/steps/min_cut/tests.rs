@@ -21,12 +21,12 @@ impl Lcg {
 }
 
 /// What a [`BinaryEnergy`] is told.
-struct Instance {
+struct CutInstance {
     unary: Vec<[f64; 2]>,
     pairs: Vec<(usize, usize, [f64; 4])>,
 }
 
-impl Instance {
+impl CutInstance {
     fn minimum(&self) -> Vec<bool> {
         let mut energy = BinaryEnergy::new(self.unary.len());
         for (i, [zero, one]) in self.unary.iter().enumerate() {
@@ -64,7 +64,7 @@ impl Instance {
     }
 }
 
-fn random(lcg: &mut Lcg) -> Instance {
+fn random(lcg: &mut Lcg) -> CutInstance {
     let n = 1 + lcg.below(10) as usize;
     // Small whole numbers bring ties; eighths are exact in the unit of costs.
     let range = [3, 20, 4000][lcg.below(3) as usize];
@@ -92,7 +92,7 @@ fn random(lcg: &mut Lcg) -> Instance {
         };
         (i, j, [a, b, c + lift, d])
     };
-    Instance {
+    CutInstance {
         unary,
         pairs: (0..pairs).map(|_| pair(lcg)).collect(),
     }
@@ -193,20 +193,20 @@ fn a_grid_is_cut_as_by_the_largest_flow() {
                 pair(at(x, y + 1));
             }
         }
-        // Node 0 is the source, its side 0; what it costs to be 1 is cut from it.
+        // FlowNode 0 is the source, its side 0; what it costs to be 1 is cut from it.
         let mut rooms = vec![Vec::new(); SIDE * SIDE + 2];
         let mut arcs = |v: usize, w: usize, there: i64, back: i64| {
             rooms[v].push((w, there));
             rooms[w].push((v, back));
         };
         for (i, [zero, one]) in unary.iter().enumerate() {
-            arcs(0, i + 1, *one as i64, 0);
-            arcs(i + 1, SIDE * SIDE + 1, *zero as i64, 0);
+            arcs(0, i + 1, one.cast_signed(), 0);
+            arcs(i + 1, SIDE * SIDE + 1, zero.cast_signed(), 0);
         }
         for (i, j, [_, b, c, _]) in &pairs {
             arcs(i + 1, j + 1, *b as i64, *c as i64);
         }
-        let instance = Instance {
+        let instance = CutInstance {
             unary: unary.iter().map(|u| u.map(|u| u as f64)).collect(),
             pairs,
         };
