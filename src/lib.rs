@@ -31,6 +31,7 @@
 //! | standing supports | [`split::split`] | [`split::Split`]: plates and pillars to be put together |
 //! | views and what is wanted of a layout | [`planner::plan`], [`planner::repair`] | [`planner::Planned`], or [`planner::NoLayout`]: what binds |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
+//! | a mesh file's bytes | [`intake::load_original`], [`intake::inspect()`] | a model fit to be worked with, with all that its file says; or what is wrong with it for printing |
 //! | what stages found | [`words`] | [`diag::Diagnostic`]s for people |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
@@ -75,6 +76,7 @@
 //! | bare | a support without its reliefs |
 //! | ladder, rung | ways to do a thing that are tried in turn, and the one that held |
 //! | brief | what the planner is to find |
+//! | horizon | which pillar an eye meets first at every bearing, in plan; its *runs* are stretches with one answer |
 //! | tolerance | how far an eye may move before steps open |
 //! | camouflage | how little of a model is left from elsewhere |
 //!

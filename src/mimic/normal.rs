@@ -46,11 +46,7 @@ pub(crate) fn depths(
     let (target, map) = (&image.target, &image.map);
     let conditions = &conditions::all(groups, keeping);
     let seen = seen_solid_angles(image);
-    let takes_part = |seen: &f64| match keeping.faces {
-        TakingPart::Seen => *seen > 0.0,
-        TakingPart::All => true,
-    };
-    let taking_part: Vec<bool> = seen.iter().map(takes_part).collect();
+    let taking_part = taking_part(keeping.faces, &seen);
     let index = Variables::new(target, &taking_part);
     let unit = typical_width(groups, keeping.least_unit);
     let scaled = opening.is_none();
@@ -77,10 +73,8 @@ pub(crate) fn depths(
     // While conditions are checked the scales are the program's own: the closed form follows the worst bound, and then all others
     // seem broken.
     let depths = |u: &[f64]| {
-        let scale = |g: GroupId| match scaled {
-            true => (u[index.scale(g)] * unit).exp(),
-            false => 1.0,
-        };
+        let own = |g: GroupId| (u[index.scale(g)] * unit).exp();
+        let scale = |g: GroupId| if scaled { own(g) } else { 1.0 };
         let mu: Vec<f64> = GroupId::all(groups.groups.len()).map(scale).collect();
         (index.relative_depths(u, unit), mu)
     };
@@ -101,20 +95,25 @@ pub(crate) fn depths(
         true => scales(groups, &conditions.all, &s, |g| free[g]),
         false => free,
     };
-    let solved = Solved {
-        gauge: if scaled {
-            "free offsets are pulled to the model's depth"
-        } else {
-            "every piece is pulled to where its tears were found"
-        },
-        ..solved
+    let gauge = match opening {
+        None => "free offsets are pulled to the model's depth",
+        Some(_) => "every piece is pulled to where its tears were found",
     };
     Ok(Depths {
         s,
         mu,
-        solved,
+        solved: Solved { gauge, ..solved },
         iterated: None,
     })
+}
+
+/// Which faces count.
+fn taking_part(faces: TakingPart, seen: &[f64]) -> Vec<bool> {
+    let takes_part = |seen: &f64| match faces {
+        TakingPart::Seen => *seen > 0.0,
+        TakingPart::All => true,
+    };
+    seen.iter().map(takes_part).collect()
 }
 
 /// The regulariser's pull to where the surface starts, and the forces on it.

@@ -8,7 +8,7 @@ use crate::mimic::conditions::{self, Condition, Conditions, plain_tangent};
 use crate::mimic::depths::{Depths, scales, seen_solid_angles, typical_width};
 use crate::mimic::energy::{CurvatureForm, CurvatureOptions};
 use crate::mimic::keeping::Keeping;
-use crate::mimic::lazily::{MARGIN, Meaning, solve_lazily};
+use crate::mimic::lazily::{DepthsAndScales, MARGIN, Meaning, solve_lazily};
 use crate::mimic::program::{Program, Quadratic, Row, gathered};
 use crate::mimic::solve::{Method, SolveError, Solved};
 use crate::sight::Sight;
@@ -61,12 +61,55 @@ impl<'a> Problem<'a> {
     }
 
     /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
+    ///
+    /// # Errors
+    /// As [`solve_lazily`].
     pub(crate) fn solve(
         &self,
         sheet: &Sheet,
         forms: &[Form],
         start: &[f64],
     ) -> Result<Depths, SolveError> {
+        let scaled = self.options.group_scales;
+        let tangent = |c: &Condition, s: &[f64]| {
+            let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
+            Some(if scaled {
+                row
+            } else {
+                row.without(start.len())
+            })
+        };
+        let mut program = self.program(sheet, forms, start);
+        let first = self.conditions.all[..self.conditions.rows].iter();
+        program.rows = first.filter_map(|c| tangent(c, start)).collect();
+        let depths = |u: &[f64]| self.depths_and_scales(u, start);
+        let meaning = Meaning {
+            depths: &depths,
+            tangent: &tangent,
+            focal: self.image.map.plane.focal,
+        };
+        let method = match self.options.form {
+            CurvatureForm::Quadratic => Method::DualWorkingSet,
+            CurvatureForm::Conic => Method::InteriorPoint,
+        };
+        let (u, solved) = solve_lazily(&mut program, &self.conditions, &meaning, method)?;
+        let (s, _) = depths(&u);
+        Ok(Depths {
+            mu: match scaled {
+                true => scales(self.groups, &[], &s, |_| 1.0),
+                false => vec![1.0; self.groups.groups.len()],
+            },
+            s,
+            solved: Solved {
+                gauge: self.gauge_in_words(),
+                ..solved
+            },
+            iterated: None,
+        })
+    }
+
+    /// The program without rows.
+    fn program(&self, sheet: &Sheet, forms: &[Form], start: &[f64]) -> Program {
         let n = start.len();
         let variables = n + self.groups.groups.len();
         let mut quadratic = Quadratic::new(variables);
@@ -76,13 +119,7 @@ impl<'a> Problem<'a> {
         let unused = (0..n).filter(|i| !self.is_used(*i));
         unused.for_each(|i| quadratic.square(i, 1.0));
         let (quadratic, factor) = quadratic.finish_with_factor();
-        let scaled = self.options.group_scales;
-        let tangent = |c: &Condition, s: &[f64]| {
-            let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
-            Some(if scaled { row } else { row.without(n) })
-        };
-        let first = self.conditions.all[..self.conditions.rows].iter();
-        let mut program = Program {
+        Program {
             variables,
             linear,
             quadratic,
@@ -95,51 +132,30 @@ impl<'a> Problem<'a> {
             } else {
                 Vec::new()
             },
-            rows: first.filter_map(|c| tangent(c, start)).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// What the unknowns mean: relative depths, and the program's own scales, as conditions are checked with (see `normal`).
+    fn depths_and_scales(&self, u: &[f64], start: &[f64]) -> DepthsAndScales {
+        let n = start.len();
+        let depth = |i: usize| {
+            if self.is_used(i) {
+                start[i] + self.unit * u[i]
+            } else {
+                1.0
+            }
         };
-        let depths = |u: &[f64]| {
-            let depth = |i: usize| {
-                if self.is_used(i) {
-                    start[i] + self.unit * u[i]
-                } else {
-                    1.0
-                }
-            };
-            // The program's own scales while conditions are checked, as in `normal`.
-            let mu = (0..self.groups.groups.len()).map(|g| 1.0 + self.unit * u[n + g]);
-            ((0..n).map(depth).collect(), mu.collect())
-        };
-        let meaning = Meaning {
-            depths: &depths,
-            tangent: &tangent,
-            focal: self.image.map.plane.focal,
-        };
-        let method = match self.options.form {
-            CurvatureForm::Quadratic => Method::DualWorkingSet,
-            CurvatureForm::Conic => Method::InteriorPoint,
-        };
-        let (u, solved) = solve_lazily(&mut program, &self.conditions, &meaning, method)?;
-        let (s, _) = depths(&u);
-        let mu = match scaled {
-            true => scales(self.groups, &[], &s, |_| 1.0),
-            false => vec![1.0; self.groups.groups.len()],
-        };
-        let solved = Solved {
-            gauge: match (self.options.scale_invariant, scaled) {
-                (true, true) => "the area-weighted mean relative depth is 1",
-                (true, false) => "the bounds, which are absolute",
-                (false, _) => {
-                    "nothing: the energy knows the model's size and determines every depth"
-                }
-            },
-            ..solved
-        };
-        Ok(Depths {
-            s,
-            mu,
-            solved,
-            iterated: None,
-        })
+        let mu = (0..self.groups.groups.len()).map(|g| 1.0 + self.unit * u[n + g]);
+        ((0..n).map(depth).collect(), mu.collect())
+    }
+
+    fn gauge_in_words(&self) -> &'static str {
+        match (self.options.scale_invariant, self.options.group_scales) {
+            (true, true) => "the area-weighted mean relative depth is 1",
+            (true, false) => "the bounds, which are absolute",
+            (false, _) => "nothing: the energy knows the model's size and determines every depth",
+        }
     }
 
     /// The squares of all forms with their weights, scaled to a mean diagonal of 1.
