@@ -585,7 +585,7 @@ impl Builder {
             triangles.extend(
                 triangulate(&points)
                     .into_iter()
-                    .map(|t| t.map(|k| first + k as u32)),
+                    .map(|t| t.map(|k| first + count(k))),
             );
             first += arity;
         }
