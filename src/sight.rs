@@ -4,7 +4,7 @@
 //! sight again.
 
 use crate::groups::{Groups, ThinSupport, groups, with_bounds, without};
-use crate::index::{CellId, SupportId, ViewId};
+use crate::index::{CellId, FaceId, SupportId, ViewId};
 use crate::view::View;
 use crate::viewmap::{Image, SupportField, Target, ViewMap, ViewMapError};
 use std::ops::Range;
@@ -60,12 +60,16 @@ impl<'a> Sight<'a> {
     }
 
     /// The view's models by name, with their faces in its target.
-    pub fn models(&self) -> impl Iterator<Item = (&'a str, Range<usize>)> {
-        self.image.view.models.iter().scan(0, |first, model| {
-            let faces = *first..*first + model.mesh.faces.len();
-            *first = faces.end;
-            Some((model.name.as_str(), faces))
-        })
+    pub fn models(&self) -> impl Iterator<Item = (&'a str, Range<FaceId>)> {
+        self.image
+            .view
+            .models
+            .iter()
+            .scan(FaceId(0), |first, model| {
+                let faces = *first..first.plus(model.mesh.faces.len());
+                *first = faces.end;
+                Some((model.name.as_str(), faces))
+            })
     }
 
     /// The same without the cells it loses (rising), which may leave it nothing.

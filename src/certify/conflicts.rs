@@ -11,7 +11,7 @@ use super::point::without_minus_zero;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
 use crate::geom::SQUARE_ARCMIN;
-use crate::index::{CellId, SupportId, ViewId};
+use crate::index::{CellId, FaceId, SupportId, ViewId};
 use crate::relief::Relief;
 use crate::sight::Sight;
 use crate::viewmap::SupportField;
@@ -144,10 +144,10 @@ pub fn sighted(
     // Nothing at all sums to -0.
     found.small_arcmin2 = small.map(|d| d.arcmin2).sum::<f64>() + 0.0;
     found.rays = cells.iter().map(|c| c.parts * c.parts).sum();
-    let of_model = |faces: std::ops::Range<usize>| {
+    let of_model = |faces: std::ops::Range<FaceId>| {
         let lost = misses.iter().filter(|m| {
             let face = sight.image.map.cells[m.cell].face;
-            m.kind.is_some() && face.is_some_and(|f| faces.contains(&f.at()))
+            m.kind.is_some() && face.is_some_and(|f| faces.contains(&f))
         });
         lost.map(|m| m.sr).sum()
     };

@@ -106,7 +106,7 @@ pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId]) -> Coverage 
         })
         .collect();
     let models = sight.models().map(|(name, faces)| {
-        let of_model = |c: &CellId| map.cells[*c].face.is_some_and(|f| faces.contains(&f.at()));
+        let of_model = |c: &CellId| map.cells[*c].face.is_some_and(|f| faces.contains(&f));
         let cells: Vec<CellId> = all().filter(of_model).collect();
         let sum = |keep: &dyn Fn(CellId) -> bool| {
             let kept = cells.iter().filter(|c| keep(**c));

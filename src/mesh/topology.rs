@@ -117,12 +117,9 @@ pub fn face_neighbours(mesh: &TriMesh) -> Vec<[Option<FaceId>; 3]> {
     neighbours
 }
 
-/// Marks a vertex that no face uses in [`vertex_parts`].
-pub const NO_PART: u32 = u32::MAX;
-
 /// The number of parts joined by shared vertices, and for each vertex the part it is in: parts are numbered by their
-/// lowest vertex, vertices without a face have [`NO_PART`].
-pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<u32>) {
+/// lowest vertex, vertices without a face are in none.
+pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<Option<usize>>) {
     let mut sets = DisjointSets::new(mesh.vertices.len());
     let mut used = vec![false; mesh.vertices.len()];
     for &[a, b, c] in &mesh.faces {
@@ -132,23 +129,19 @@ pub fn vertex_parts(mesh: &TriMesh) -> (usize, Vec<u32>) {
             used[v] = true;
         }
     }
-    let mut number_of_root = vec![NO_PART; used.len()];
+    let mut number_of_root = vec![None; used.len()];
     let mut parts = 0;
-    let part_of = VertexId::all(used.len())
-        .map(|v| {
-            if !used[v] {
-                return NO_PART;
-            }
-            let root = VertexId(sets.root(v.0));
-            let number = &mut number_of_root[root];
-            if *number == NO_PART {
-                *number = parts;
-                parts += 1;
-            }
-            *number
+    let mut part = |v: VertexId| {
+        let root = VertexId(sets.root(v.0));
+        *number_of_root[root].get_or_insert_with(|| {
+            parts += 1;
+            parts - 1
         })
+    };
+    let part_of = VertexId::all(used.len())
+        .map(|v| used[v].then(|| part(v)))
         .collect();
-    (parts as usize, part_of)
+    (parts, part_of)
 }
 
 /// Vertices at which faces meet without being joined by edges (two cones tip to tip), rising.
