@@ -43,7 +43,7 @@ pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
                             TOLERANCES_MM.len(),
                         ),
                         Ladder::new(
-                            "height of slivers dissolved",
+                            "mending: height of slivers, then distance of faces",
                             Some(place),
                             rung,
                             Mended::RUNGS,

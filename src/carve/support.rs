@@ -236,9 +236,18 @@ impl<'a> SupportWork<'a> {
         Ok(())
     }
 
+    /// What of `whole` is no bare support.
+    fn resolved(&self, whole: &Boolean) -> Result<Boolean, CarveError> {
+        let rest = whole.minus(&self.bare);
+        rest.map_err(|source| CarveError::Boolean {
+            place: self.support.name.clone(),
+            source,
+        })
+    }
+
     fn checked(self, whole: &Boolean, widths: usize) -> Result<Carved, CarveError> {
         let place = |what: &str| format!("{} ({what})", self.support.name);
-        let mut ladders = Vec::new();
+        let (mut ladders, mut resolved) = (Vec::new(), Vec::new());
         let mut told = |sound: Sound| {
             ladders.extend(sound.ladders);
             sound.solid
@@ -246,24 +255,29 @@ impl<'a> SupportWork<'a> {
         let mut blocks = Vec::new();
         for block in self.blocks.iter().filter(|b| !b.solid.is_empty()) {
             let place = place(block.operand.name());
-            let solid = match block.operand {
-                Operand::Relief { .. } => sound(&block.solid, &place),
-                // A mesh that crosses itself is resolved: what lies inside of any part of it is solid.
-                Operand::Mesh { .. } => sound(&block.solid, &place).or_else(|_| {
-                    let resolved = whole.minus(&self.bare);
-                    let resolved = resolved.map_err(|source| CarveError::Boolean {
-                        place: place.clone(),
-                        source,
-                    });
-                    sound(&resolved?, &place)
-                }),
+            let solid = match (block.operand, sound(&block.solid, &place)) {
+                (Operand::Relief { .. }, solid) => solid?,
+                (Operand::Mesh { .. }, solid) => {
+                    let rung = usize::from(solid.is_err());
+                    resolved.push(Ladder::new(
+                        "mesh as it is, or resolved",
+                        Some(&place),
+                        rung,
+                        2,
+                    ));
+                    // What lies inside of any part of a mesh that crosses itself is solid.
+                    solid.or_else(|_| sound(&self.resolved(whole)?, &place))?
+                }
             };
-            blocks.push((block.view, told(solid?)));
+            blocks.push((block.view, told(solid)));
         }
+        let whole = told(sound(whole, &place("with reliefs"))?);
+        let bare = told(sound(&self.bare, &place("carved"))?);
+        ladders.extend(resolved);
         Ok(Carved {
             blocks,
-            whole: told(sound(whole, &place("with reliefs"))?),
-            bare: told(sound(&self.bare, &place("carved"))?),
+            whole,
+            bare,
             given_up: self.given_up,
             repairs: self.repairs,
             widths,

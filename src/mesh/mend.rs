@@ -8,7 +8,7 @@
 use crate::index::{FaceId, VertexId};
 use crate::mesh::detach::detach;
 use crate::mesh::intersect::self_intersections;
-use crate::mesh::separate::separate;
+use crate::mesh::separate::{MARGINS_MM, separate};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{cancel_folds, drop_collapsed, drop_unreferenced, snap_to_f32};
 use glam::DVec3;
@@ -26,14 +26,14 @@ const MAX_PAIRS: usize = 20_000;
 #[derive(Clone, Debug)]
 pub struct Mended {
     pub mesh: TriMesh,
-    /// The first of the heights, counted from 0, that left nothing in trouble; their number where none did and faces were drawn
-    /// apart.
+    /// The first of the heights, counted from 0, that left nothing in trouble; beyond them the distances at which faces were drawn
+    /// apart. The last where none was enough.
     pub rung: usize,
 }
 
 impl Mended {
-    /// The heights, and drawing apart.
-    pub const RUNGS: usize = HEIGHTS_MM.len() + 1;
+    /// The heights, and the distances of drawing apart.
+    pub const RUNGS: usize = HEIGHTS_MM.len() + MARGINS_MM.len();
 }
 
 /// Rounds to f32 and mends what that broke.
@@ -63,20 +63,27 @@ pub fn mend(mesh: &TriMesh) -> Mended {
         Some((count, better)) if count < trouble(&mesh).len() => better,
         _ => mesh,
     };
-    Mended {
-        mesh: drawn_apart(mesh),
-        rung: HEIGHTS_MM.len(),
-    }
+    drawn_apart(mesh)
 }
 
 /// What dissolving left is drawn apart, if that helps everywhere.
-fn drawn_apart(mesh: TriMesh) -> TriMesh {
+fn drawn_apart(mesh: TriMesh) -> Mended {
     let pairs = self_intersections(&mesh, MAX_PAIRS);
-    let mut apart = mesh.clone();
-    if !pairs.is_empty() && separate(&mut apart, &pairs) {
-        return apart;
+    if pairs.is_empty() {
+        let rung = HEIGHTS_MM.len() - 1;
+        return Mended { mesh, rung };
     }
-    mesh
+    let mut apart = mesh.clone();
+    match separate(&mut apart, &pairs) {
+        Some(distance) => Mended {
+            mesh: apart,
+            rung: HEIGHTS_MM.len() + distance,
+        },
+        None => Mended {
+            mesh,
+            rung: Mended::RUNGS - 1,
+        },
+    }
 }
 
 /// Faces that cut others, their neighbourhoods and faces without area, rising.

@@ -10,7 +10,7 @@ use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 
 /// Distances that cutting faces are given, millimetres, in turn: from ten f32 steps at 100 mm to a hundredth of a printed line.
-const MARGINS_MM: [f64; 5] = [1e-4, 3e-4, 1e-3, 2e-3, 4e-3];
+pub(super) const MARGINS_MM: [f64; 5] = [1e-4, 3e-4, 1e-3, 2e-3, 4e-3];
 /// Rounds at each distance: moving one vertex may push it into the next face.
 const ROUNDS: usize = 3;
 /// More pairs than this are a real overlap.
@@ -18,28 +18,29 @@ const MOST: usize = 400;
 /// How far around the trouble faces are looked at, millimetres.
 const AROUND_MM: f64 = 0.05;
 
-/// Separates cutting faces, given as `pairs`; whether none of them, nor any new one nearby, is left.
-pub fn separate(mesh: &mut TriMesh, pairs: &[[FaceId; 2]]) -> bool {
+/// Separates cutting faces, given as `pairs`. Gives the index of the distance that was enough; `None` if some of them, or new ones
+/// nearby, are left.
+pub fn separate(mesh: &mut TriMesh, pairs: &[[FaceId; 2]]) -> Option<usize> {
     if pairs.len() > MOST {
-        return false;
+        return None;
     }
     let mut near = Neighbourhood::new(mesh, pairs);
-    for margin in MARGINS_MM {
+    for (rung, margin) in MARGINS_MM.into_iter().enumerate() {
         for _ in 0..ROUNDS {
             let pairs = self_intersections(&near.mesh, MOST + 1);
             if pairs.is_empty() {
                 near.write_back(mesh);
-                return true;
+                return Some(rung);
             }
             if pairs.len() > MOST {
-                return false;
+                return None;
             }
             for [a, b] in pairs {
                 near.push_apart(a, b, margin);
             }
         }
     }
-    false
+    None
 }
 
 /// The part of a mesh around some faces.
