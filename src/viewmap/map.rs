@@ -14,7 +14,7 @@ pub struct Cell {
     pub face: Option<FaceId>,
     /// The support first hit here.
     pub support: Option<SupportId>,
-    /// The face of the supports' mesh hit here, for [`SupportField::facet_depth`].
+    /// The face of the supports' mesh hit here, for [`facet_depth`](super::SupportField::facet_depth).
     pub facet: Option<FacetId>,
     /// The face of the supports' mesh at which rays leave the wall behind, where a layer goes through that.
     pub leaves: Option<FacetId>,
