@@ -4,16 +4,14 @@
 //! - Bounds: those of the groups.
 //! - Solid: every cell's depths over its support, which is carved out before them.
 //! - Certificate: layers at all corners of all cells; order where sheets meet.
+//!
+//! Solid and certificate are what [`Optimised`] says of any kind that says nothing else.
 
 use super::crossings::{Crossings, crossings, moved};
 use super::optimised::Optimised;
-use crate::carve::Operand;
-use crate::certify::layer::{bound_violation_mm, order_inversions};
-use crate::diagram::section::{Section, section};
 use crate::mimic::{Depths, Energy, Keeping, Orders, SolveError, depths, orders};
 use crate::relief::{Relief, relief};
 use crate::sight::Sight;
-use crate::surface::{Surface, surface};
 
 /// Depths of a surface in one piece.
 ///
@@ -53,6 +51,10 @@ impl<'a> HeightField<'a> {
 }
 
 impl Optimised for HeightField<'_> {
+    fn sight(&self) -> &Sight<'_> {
+        self.sight
+    }
+
     fn depths(&self) -> &Depths {
         &self.depths
     }
@@ -61,30 +63,7 @@ impl Optimised for HeightField<'_> {
         &self.relief
     }
 
-    fn operand(&self) -> Operand<'_> {
-        Operand::Relief {
-            sight: self.sight,
-            relief: &self.relief,
-        }
-    }
-
-    fn bound_violation_mm(&self) -> f64 {
-        bound_violation_mm(self.sight, &self.relief)
-    }
-
-    fn order_inversions(&self) -> usize {
-        order_inversions(&self.sight.image, &self.relief) + self.depths.solved.broken
-    }
-
     fn crossings(&self) -> Option<Crossings> {
         self.crossings
-    }
-
-    fn surface(&self) -> Surface {
-        surface(self.sight, &self.depths)
-    }
-
-    fn section(&self) -> Section {
-        section(self.sight, &self.depths, &self.relief)
     }
 }

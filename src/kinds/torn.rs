@@ -4,8 +4,6 @@
 //! - Solid and certificate: as for a height field, over the map of the surface before it was cut.
 
 use super::optimised::Optimised;
-use crate::carve::Operand;
-use crate::certify::layer::{bound_violation_mm, order_inversions};
 use crate::diagram::section::{Section, torn_section};
 use crate::mimic::{Depths, NormalOptions, SolveError};
 use crate::relief::{Relief, relief};
@@ -39,6 +37,10 @@ impl<'a> TornSurface<'a> {
 }
 
 impl Optimised for TornSurface<'_> {
+    fn sight(&self) -> &Sight<'_> {
+        self.sight
+    }
+
     fn depths(&self) -> &Depths {
         &self.torn.depths
     }
@@ -49,21 +51,6 @@ impl Optimised for TornSurface<'_> {
 
     fn steps(&self) -> Option<(&[StepLine], &StepSummary)> {
         Some((&self.torn.lines, &self.torn.summary))
-    }
-
-    fn operand(&self) -> Operand<'_> {
-        Operand::Relief {
-            sight: self.sight,
-            relief: &self.relief,
-        }
-    }
-
-    fn bound_violation_mm(&self) -> f64 {
-        bound_violation_mm(self.sight, &self.relief)
-    }
-
-    fn order_inversions(&self) -> usize {
-        order_inversions(&self.sight.image, &self.relief) + self.torn.depths.solved.broken
     }
 
     fn surface(&self) -> Surface {

@@ -14,7 +14,6 @@
 use super::crossings::{Crossings, crossings, moved};
 use super::optimised::Optimised;
 use crate::carve::Operand;
-use crate::diagram::section::{Section, section};
 use crate::groups::{Bound, anchor};
 use crate::index::CellId;
 use crate::mesh::TriMesh;
@@ -23,7 +22,6 @@ use crate::mimic::{
 };
 use crate::relief::Relief;
 use crate::sight::Sight;
-use crate::surface::{Surface, surface};
 use crate::viewmap::{Cell, Image};
 
 /// How far apart sheets are to stay, millimetres: a thousand times what f32 resolves at 100 mm, and far below what is printed.
@@ -96,6 +94,10 @@ fn seen(sight: &Sight, depths: &Depths) -> Relief {
 }
 
 impl Optimised for WholeMesh<'_> {
+    fn sight(&self) -> &Sight<'_> {
+        self.sight
+    }
+
     fn depths(&self) -> &Depths {
         &self.depths
     }
@@ -122,14 +124,6 @@ impl Optimised for WholeMesh<'_> {
 
     fn crossings(&self) -> Option<Crossings> {
         Some(self.crossings)
-    }
-
-    fn surface(&self) -> Surface {
-        surface(self.sight, &self.depths)
-    }
-
-    fn section(&self) -> Section {
-        section(self.sight, &self.depths, &self.relief)
     }
 }
 

@@ -109,12 +109,24 @@ fn functions(text: &str) -> Vec<(&str, String)> {
     found
 }
 
+/// Whether a body only gives a field: what every implementor of a trait that asks for it has to write.
+fn gives_a_field(body: &str) -> bool {
+    let path = body.strip_prefix('&').unwrap_or(body);
+    path.starts_with("self.")
+        && path
+            .chars()
+            .all(|c| c.is_alphanumeric() || "._".contains(c))
+}
+
 #[test]
 fn a_function_is_written_once() {
     let sources = sources();
     let mut places = Vec::new();
     for (path, text) in &sources {
-        for (name, body) in functions(text) {
+        for (name, body) in functions(text)
+            .into_iter()
+            .filter(|(_, b)| !gives_a_field(b))
+        {
             places.push(((name, body), path.display().to_string()));
         }
     }
