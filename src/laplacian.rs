@@ -1,4 +1,5 @@
-//! Cotangents and areas. Sign convention: weights are positive for acute angles, so `sum of w (x_i - x_j)^2 / 2` is the Dirichlet energy.
+//! Cotangents and areas. Sign convention: weights are positive for acute angles, so `sum of w (x_i - x_j)^2 / 2` is the Dirichlet
+//! energy.
 
 use crate::index::FaceId;
 use crate::mesh::TriMesh;

@@ -80,6 +80,16 @@
 //! | tolerance | how far an eye may move before steps open |
 //! | camouflage | how little of a model is left from elsewhere |
 //!
+//! # Where to begin
+//!
+//! | to add | open |
+//! |---|---|
+//! | a form of support | a file in `scene::supports::bodies` (its fields and its mesh), its fields in `scene::language` |
+//! | an energy | [`mimic::Energy`], a file in `mimic` with its `depths`, one line in `mimic::minimise`; its options in `scene::options` |
+//! | a kind of relief | a file in [`kinds`] with what differs from [`kinds::Optimised`], its line in [`kinds::ReliefKind`] |
+//! | a check of what is built | a file in [`certify`] that gives figures and places, its sentence in [`words`], its line in `compile::certificates` or `compile::print` |
+//! | a file format to read | a `read_*` file in [`formats`] and its line in `formats::read`; to write: a file in [`formats`] and its line in `compile::files` |
+//!
 //! # Invariants
 //!
 //! - A module names only modules that stand above it in the list below.
@@ -93,8 +103,8 @@
 //!   `scene::supports::bodies::heights`, `rand` in [`planner`].
 //! - Geometry does not speak to users: stages return typed findings, and [`words`] turns them into messages. Files and scene texts are
 //!   read by those who know their lines and columns, and word what is wrong there.
-//! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that are no
-//!   pillars are one kind, a body: a new form is a new mesh in `scene::supports::bodies`, not a new pipeline.
+//! - Supports are a [`support::SupportKind`] with a mesh and, as seen from an eye, a [`support::Slab`] of allowed depths. All that
+//!   are no pillars are one kind, a body: a new form is a new mesh in `scene::supports::bodies`, not a new pipeline.
 #![forbid(unsafe_code)]
 
 // In reading order; blank lines keep the formatter from sorting them.

@@ -1,7 +1,8 @@
 //! From reliefs to solids: supports are carved along the eyes' rays in front of the reliefs, and everything is united.
 //!
-//! Takes supports and what every view puts on them ([`Operand`]): the relief over its view map, or a mesh as it is. Gives the whole forest, the bare part (base and pillars) and each
-//! view's reliefs as checked solids. Promises: closed, oriented, 2-manifold, free of self-intersection, in f32.
+//! Takes supports and what every view puts on them ([`Operand`]): the relief over its view map, or a mesh as it is. Gives the whole
+//! forest, the bare part (base and pillars) and each view's reliefs as checked solids. Promises: closed, oriented, 2-manifold, free
+//! of self-intersection, in f32.
 //!
 //! Operands never share a wall. The carving reaches deeper than any relief, to half-way inside the relief's solid backing, and
 //! is a hair narrower than the relief where the support goes on beside it (so the relief's edge is bedded in the support) but

@@ -7,8 +7,8 @@
 //!
 //! The view's eye is turned about the vertical axis through the middle `c` of the target's box, by every one of
 //! [`ANGLES_DEG`] to both sides, as it is and raised and lowered by 15 degrees about `c` (its distance to `c` stays). Lowered eyes
-//! that would look from below the base's top are left out, and raised ones within 5 degrees of the zenith. Every eye looks at `c` with the
-//! target filling its frame, as in the views' pictures, at `SIDE x SIDE` rays.
+//! that would look from below the base's top are left out, and raised ones within 5 degrees of the zenith. Every eye looks at `c`
+//! with the target filling its frame, as in the views' pictures, at `SIDE x SIDE` rays.
 //!
 //! # Likeness
 //!

@@ -99,7 +99,8 @@ pub(super) enum Command {
         /// Write everything even if something of it does not hold (exit code 3 all the same)
         #[arg(long)]
         force: bool,
-        /// Also write the forest in pieces: plates that fit the bed, with pins and numbered sockets, each pillar with a peg, and layout.svg at 1:1
+        /// Also write the forest in pieces: plates that fit the bed, with pins and numbered sockets, each pillar with a peg, and
+        /// layout.svg at 1:1
         #[arg(long)]
         split: bool,
     },

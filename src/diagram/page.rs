@@ -22,7 +22,8 @@ const WIDTH: f64 = 210.0;
 const LEAST_HEIGHT: f64 = 297.0;
 /// The map's middle below the top edge.
 const MIDDLE: f64 = 129.0;
-/// Of the plan and of panels: up to the first ranges are drawn, at the second stand the eyes that are further away. Radii of the forest.
+/// Of the plan and of panels: up to the first ranges are drawn, at the second stand the eyes that are further away. Radii of the
+/// forest.
 const EDGES: [f64; 2] = [1.24, 1.45];
 const PANEL_EDGES: [f64; 2] = [1.13, 1.31];
 /// Of the plan and of panels: widest name beside an eye, as a share of their width.

@@ -45,7 +45,8 @@ pub struct Vista {
     pub intervals: Vec<Vec<Sector>>,
 }
 
-/// Pillars as obstacles, `None` for supports that are none; indices are those of the supports. They are the polygons with which they are built.
+/// Pillars as obstacles, `None` for supports that are none; indices are those of the supports. They are the polygons with which they
+/// are built.
 pub fn obstacles(supports: &[Support]) -> Vec<Option<Obstacle<'_>>> {
     let obstacle = |s| match s {
         &Support {

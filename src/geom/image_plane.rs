@@ -5,11 +5,11 @@ use super::planar::orient;
 use glam::{DVec2, DVec3};
 
 /// How far away eyes at infinity stand, millimetres: a central projection from there is a parallel one for all that prints. Rays 50 mm
-/// beside the line of sight lean by 0.0095 degrees, 1.2 micrometres over a layer of 7 mm. Ten times nearer a printer could show that; ten
-/// times farther rounding (6e-11 mm here) comes near what bounds promise (1e-6 mm) after some thousand operations.
+/// beside the line of sight lean by 0.0095 degrees, 1.2 micrometres over a layer of 7 mm. Ten times nearer a printer could show
+/// that; ten times farther rounding (6e-11 mm here) comes near what bounds promise (1e-6 mm) after some thousand operations.
 pub const FAR_MM: f64 = 3e5;
-/// From where angles are told of what is seen from infinity, millimetres: where one reads. Images of either projection so have coordinates
-/// of one size.
+/// From where angles are told of what is seen from infinity, millimetres: where one reads. Images of either projection so have
+/// coordinates of one size.
 pub const READING_MM: f64 = 300.0;
 
 /// The plane `focal` units in front of an eye `o`; a point `q` of it stands for the ray `o + z * direction(q)`, `z > 0`.

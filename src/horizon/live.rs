@@ -22,8 +22,8 @@ impl Run {
 
 /// What a viewpoint sees over some spans of bearings; see the module.
 ///
-/// Obstacles stay with the caller, as a list in which `None` lets all rays pass; a horizon keeps their shadows, the tangents in order, and
-/// what is met between them.
+/// Obstacles stay with the caller, as a list in which `None` lets all rays pass; a horizon keeps their shadows, the tangents in
+/// order, and what is met between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Horizon {
     viewpoint: Viewpoint,
@@ -90,8 +90,8 @@ impl Horizon {
     /// Follows a change of one obstacle: moved, of another footprint, added, or taken away. Only the stretches that its old and its
     /// new shadow meet are looked at again.
     ///
-    /// `obstacles` is the list as it is now. After several changes it is called for each, in any order; after the last call, the horizon is that of
-    /// the list.
+    /// `obstacles` is the list as it is now. After several changes it is called for each, in any order; after the last call, the
+    /// horizon is that of the list.
     pub fn update(&mut self, index: usize, obstacles: &[Option<Obstacle>]) {
         let known = self.shadows.len().max(obstacles.len());
         self.shadows.resize(known, None);

@@ -11,12 +11,12 @@
 //! Promises: a horizon that was [updated](Horizon::update) is equal, to the bit, to one built anew. Obstacles of zero width and
 //! bearings right on a tangent count as neither side's.
 //!
-//! Does *not* promise: order among obstacles that overlap. Theirs may change between tangents, and the whole stretch then goes to the one that is
-//! nearest in its middle. Its ends, and stretches without overlap, stay exact. Bodies that touch do not overlap.
+//! Does *not* promise: order among obstacles that overlap. Theirs may change between tangents, and the whole stretch then goes to
+//! the one that is nearest in its middle. Its ends, and stretches without overlap, stay exact. Bodies that touch do not overlap.
 //!
 //! *Bearings* are radians from the direction ahead, counter-clockwise from above; of a viewpoint at infinity they are millimetres
-//! across its rays, to the left. *Distances* are along rays, from the viewpoint or, at infinity, from the line across the origin: so both
-//! are the limits of a far viewpoint's bearings times its distance, and distances less it.
+//! across its rays, to the left. *Distances* are along rays, from the viewpoint or, at infinity, from the line across the origin: so
+//! both are the limits of a far viewpoint's bearings times its distance, and distances less it.
 
 mod live;
 mod obstacle;

@@ -5,8 +5,8 @@ use glam::DVec2;
 
 /// The outline of a body in plan, around its own origin, millimetres.
 ///
-/// Both forms exist as callers mean different things by a round pillar: one that looks for a layout means the circle, which is the same from all
-/// sides, and one that shows what is printed means the polygon with which the print is made.
+/// Both forms exist as callers mean different things by a round pillar: one that looks for a layout means the circle, which is the
+/// same from all sides, and one that shows what is printed means the polygon with which the print is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint<'a> {
     /// A circle around the origin.

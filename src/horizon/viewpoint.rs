@@ -71,8 +71,8 @@ impl Viewpoint {
         }
     }
 
-    /// Disjoint spans of bearings in which some of the bodies stand, rising. Each body is given by its points, and reaches from the first of
-    /// their bearings to the last: around the front, for one that lies across the direction behind the viewpoint.
+    /// Disjoint spans of bearings in which some of the bodies stand, rising. Each body is given by its points, and reaches from the
+    /// first of their bearings to the last: around the front, for one that lies across the direction behind the viewpoint.
     pub fn spans<P: Iterator<Item = DVec2>>(
         &self,
         bodies: impl Iterator<Item = P>,

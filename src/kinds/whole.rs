@@ -5,8 +5,9 @@
 //!
 //! - Conditions: hidden faces count too; bounds alone have rows from the start.
 //! - Bounds: the outline of every component lies on its support, to [`HULL_MM`](crate::support::HULL_MM); nothing that is seen lies in
-//!   the support, which would hide it, nor, with [`Bounded::Seen`](super::Bounded::Seen), before the layer's front; nothing comes out of the support's far
-//!   side: hidden vertices whose rays meet it leave the layer's core there; free vertices are held to neither outline nor front.
+//!   the support, which would hide it, nor, with [`Bounded::Seen`](super::Bounded::Seen), before the layer's front; nothing comes
+//!   out of the support's far side: hidden vertices whose rays meet it leave the layer's core there; free vertices are held to
+//!   neither outline nor front.
 //! - Order: of all sheets, seen or hidden.
 //! - Solid: the mesh itself, united with its support.
 //! - Certificate: bounds at every vertex, hidden ones included; order at all events of the whole mesh.

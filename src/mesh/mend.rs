@@ -2,8 +2,8 @@
 //!
 //! Boolean operations are right in f64 but leave slivers thinner than an f32 step; rounded, some of them cut their
 //! neighbours. Takes a closed mesh; gives it rounded to f32 with slivers dissolved: needles lose their short edge, caps give
-//! their area to the face across their long edge; surfaces that only touch are drawn apart. Promises not to open it and to move nothing by more than the last of
-//! [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
+//! their area to the face across their long edge; surfaces that only touch are drawn apart. Promises not to open it and to move
+//! nothing by more than the last of [`HEIGHTS_MM`] a step; does *not* promise success: `Solid::new` decides.
 
 use crate::index::{FaceId, VertexId};
 use crate::mesh::detach::detach;

@@ -1,15 +1,16 @@
 //! Relief by compressed gradients, after Weyrich, Deng, Barnes, Rusinkiewicz & Finkelstein, *Digital Bas-Relief from 3D Scenes*
 //! (SIGGRAPH 2007), on the triangles of the model, as the paper's Fig 11 compares itself with it.
 //!
-//! The height field is the depth `z` over the eye's image, its slope at an image point `q` the gradient of `ln z`: a step `dz` on a width of
+//! The height field is the depth `z` over the eye's image, its slope at an image point `q` the gradient of `ln z`: a step `dz` on a
+//! width of
 //! `z dq`. Slopes `g` are attenuated to `C(g) = log(1 + alpha g) / alpha` and keep their direction; slopes of silhouettes become 0, and
-//! so do jumps of depth, across which the parts are joined. The field with these slopes in the sense of least squares (Poisson's equation) is
-//! then compressed linearly into the layer (`compress`).
+//! so do jumps of depth, across which the parts are joined. The field with these slopes in the sense of least squares (Poisson's
+//! equation) is then compressed linearly into the layer (`compress`).
 //!
-//! What deviates: a finite element for every seen face in place of pixels; all bounds hold exactly, where the original scales to a wanted
-//! height; without its optional sharpening and its treatment of several frequencies, as in Fig 11. The unknown is the
-//! *change* of `ln z`, which is 0 for `alpha = 0` without silhouettes, so that the result is the linear compression itself. Of an eye at
-//! infinity it is `focal ln z`, whose gradient is the slope there.
+//! What deviates: a finite element for every seen face in place of pixels; all bounds hold exactly, where the original scales to a
+//! wanted height; without its optional sharpening and its treatment of several frequencies, as in Fig 11. The unknown is the
+//! *change* of `ln z`, which is 0 for `alpha = 0` without silhouettes, so that the result is the linear compression itself. Of an
+//! eye at infinity it is `focal ln z`, whose gradient is the slope there.
 
 use super::compress::compressed;
 use super::depths::{Depths, seen_solid_angles};

@@ -15,8 +15,8 @@ use sprs::{CsMat, TriMat};
 /// More iterations than any program met so far needed (15-60).
 const MAX_ITERATIONS: u32 = 200;
 
-/// Gap and residuals at which the conic form ends. Its gap is that of `v`, half a squared length: at the solver's own 1e-8 unknowns have
-/// four digits, and the certificate refuses them.
+/// Gap and residuals at which the conic form ends. Its gap is that of `v`, half a squared length: at the solver's own 1e-8 unknowns
+/// have four digits, and the certificate refuses them.
 const CONIC_TOLERANCE: f64 = 1e-11;
 
 /// How a program was solved.

@@ -22,8 +22,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// A pillar of this shape at a place, for the horizon. Round ones are circles, whatever polygon they are printed as: a layout is worth
-    /// the same from all sides, and nothing of it depends on where corners happen to lie.
+    /// A pillar of this shape at a place, for the horizon. Round ones are circles, whatever polygon they are printed as: a layout is
+    /// worth the same from all sides, and nothing of it depends on where corners happen to lie.
     pub fn obstacle(&self, at: DVec2) -> Obstacle<'_> {
         let footprint = if self.round {
             Footprint::Disc { radius: self.reach }

@@ -4,8 +4,9 @@
 //! the rays that meet the models: what [`certify::camouflage`](crate::certify) measures on the finished solid as `mean_error_deg`.
 //!
 //! Every relief is taken for the model as its eye sees it, painted with its true normals on the middle plane of the layer: a torn
-//! relief is just that, but for the walls of its steps, which count by a share. Rays are followed in plan, one column at a time: into the carved front of a
-//! pillar, to the painted plane, or to the bare body; past all of them to the base or into the air, which counts 90 degrees.
+//! relief is just that, but for the walls of its steps, which count by a share. Rays are followed in plan, one column at a time:
+//! into the carved front of a pillar, to the painted plane, or to the bare body; past all of them to the base or into the air, which
+//! counts 90 degrees.
 
 use super::brief::{Brief, Pillar};
 use super::subject::{Outlook, OutlookColumn, Subject};

@@ -27,8 +27,8 @@ pub struct NoLayout {
     pub remedies: Remedies,
 }
 
-/// Nearest factors, with nothing else changed, on the size of all models, the width of the region and the thickness of pillars with which there
-/// is a layout by construction; none where even the most that is offered does not do.
+/// Nearest factors, with nothing else changed, on the size of all models, the width of the region and the thickness of pillars with
+/// which there is a layout by construction; none where even the most that is offered does not do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Remedies {
     pub models: Option<f64>,

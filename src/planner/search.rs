@@ -14,14 +14,14 @@ use rayon::prelude::*;
 
 /// Chains of the search: each as long as they can be, so few.
 const CHAINS: u64 = 2;
-/// Share of the tries spent on layouts at other tolerances, for the trade-off, and these tolerances: shares of the chosen layout's up to 1,
-/// from there to 2 on the way to that of the first layout.
+/// Share of the tries spent on layouts at other tolerances, for the trade-off, and these tolerances: shares of the chosen layout's
+/// up to 1, from there to 2 on the way to that of the first layout.
 pub(crate) const ASIDE: f64 = 0.25;
 const OTHERS: [f64; 5] = [0.5, 0.75, 1.3, 1.6, 1.9];
 /// Heat at which those begin, and mending: near what there is.
 pub(crate) const WARM: f64 = 0.6;
-/// First and last temperature, in units of score; it falls with the square of the heat. At 0.25 most of a search on the reference forest
-/// is spent on layouts full of faults, at 0.02 it stays near its start: both end a degree or two lower.
+/// First and last temperature, in units of score; it falls with the square of the heat. At 0.25 most of a search on the reference
+/// forest is spent on layouts full of faults, at 0.02 it stays near its start: both end a degree or two lower.
 const HOT: f64 = 0.05;
 const COLD: f64 = 1e-4;
 /// How often a chain looks whether it is to stop, and how long it goes on without heat then, in tries.
@@ -147,7 +147,8 @@ fn together(chains: Vec<Annealed>) -> Annealed {
     }
 }
 
-/// Short searches at other tolerances: from the chosen layout at lower ones, from the first one, which has room for more, at higher ones.
+/// Short searches at other tolerances: from the chosen layout at lower ones, from the first one, which has room for more, at higher
+/// ones.
 pub(crate) fn aside(
     task: &Task,
     [first, chosen]: [&Layout; 2],

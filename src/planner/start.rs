@@ -1,8 +1,8 @@
 //! A layout that is right by construction: convex sight regions that do not meet.
 //!
 //! Every view's models are hidden from its eye by a row of pillars, as near to the eye as the region lets them stand, whose shadows
-//! tile the models' bearings. The hull of the eye and its row holds all sight lines the view uses and all its solids. Where the hulls of all
-//! views are apart, nothing of one view stands in the sight of another, whatever the number of eyes and wherever they
+//! tile the models' bearings. The hull of the eye and its row holds all sight lines the view uses and all its solids. Where the
+//! hulls of all views are apart, nothing of one view stands in the sight of another, whatever the number of eyes and wherever they
 //! are: coverage is 1, and there is no conflict. The widest strips between the hulls bound the *sight regions*: each holds its eye,
 //! is convex, and in it the view's pillars may stand at any depth.
 //!

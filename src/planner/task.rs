@@ -1,7 +1,7 @@
 //! What a search is to solve, and everything that is known of one layout.
 //!
-//! A candidate differs from its predecessor in a pillar or two: its faults are surveyed exactly, with what the eyes meet followed from the
-//! predecessor, and the forecast is redone for the columns of rays that meet something changed.
+//! A candidate differs from its predecessor in a pillar or two: its faults are surveyed exactly, with what the eyes meet followed
+//! from the predecessor, and the forecast is redone for the columns of rays that meet something changed.
 
 use super::brief::{Adjustment, Brief, Pillar};
 use super::forecast::{Forecast, Tally};

@@ -39,8 +39,8 @@ use crate::render::stage::{Lit, SIDE, Stage};
 use crate::view::View;
 use rayon::prelude::*;
 
-/// Measures and draws one view in all lights: a sun of each of [`SUNS_DEG`](crate::render::stage::SUNS_DEG), then the overcast sky, then the flash. The picture is
-/// a sheet with a column for each (suns: the left ones), the model above the forest.
+/// Measures and draws one view in all lights: a sun of each of [`SUNS_DEG`](crate::render::stage::SUNS_DEG), then the overcast sky,
+/// then the flash. The picture is a sheet with a column for each (suns: the left ones), the model above the forest.
 pub fn light_pictures(
     view: &View,
     forest: &TriMesh,

@@ -22,8 +22,8 @@ use rayon::prelude::*;
 pub const PICTURES: usize = 7;
 const LAST_DEG: f64 = 90.0;
 
-/// An eye that would pass nearer to the solid on its way around is moved outward to this many radii of the solid about the axis: nearer,
-/// a picture in perspective shows little of it.
+/// An eye that would pass nearer to the solid on its way around is moved outward to this many radii of the solid about the axis:
+/// nearer, a picture in perspective shows little of it.
 const NEAREST: f64 = 1.5;
 
 /// Widest strip, pixels.

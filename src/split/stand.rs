@@ -13,8 +13,8 @@ const FAR: DVec3 = DVec3::new(192.0, 192.0, 0.0);
 /// Pieces that do not come out sound there are tried again this little aside, millimetres: less than a step of f32.
 const NUDGE: DVec3 = DVec3::new(3.1e-6, 4.7e-6, 0.0);
 
-/// Raises a body by `up` and checks it; with the place ([`PLACES`]) at which it was sound. It is rounded as it would be at [`FAR`], so that it can be moved about there exactly: a
-/// sliver that is sound near the origin may turn over where f32 is coarser.
+/// Raises a body by `up` and checks it; with the place ([`PLACES`]) at which it was sound. It is rounded as it would be at [`FAR`],
+/// so that it can be moved about there exactly: a sliver that is sound near the origin may turn over where f32 is coarser.
 pub(crate) fn standing_on_zero(
     body: &Boolean,
     up: f64,

@@ -17,9 +17,9 @@
 //!
 //! square to the side; sliding along it opens nothing. That holds for every `e`: sideways (`e` along the image's right), up, and
 //! forward, where `n . e` is small because it only grows with the side's distance from the middle of the image. The linear form
-//! tells where to look, the exact one how far the eye may go: moving forward by a third of the way opens a cut three times as wide as the
-//! linear form has it. Along a side `1/a` and `1/b` are affine in the image but for the length of the ray, so that its ends are the
-//! worst to second order.
+//! tells where to look, the exact one how far the eye may go: moving forward by a third of the way opens a cut three times as wide
+//! as the linear form has it. Along a side `1/a` and `1/b` are affine in the image but for the length of the ray, so that its ends
+//! are the worst to second order.
 //!
 //! # What counts
 //!
@@ -41,9 +41,10 @@
 //!
 //! # An eye at infinity
 //!
-//! It cannot move, but turn about the object; angles are told as from the reading distance `R` ([`READING_MM`]). A cut between depths `a`
-//! and `b` then opens by `|n . e| |b - a| / R^2` for an eye at `R` that moves by `e`, which is turned by `e / R`. Coming nearer, an eye
-//! sees what parallel rays do not: at the distance `D`, a cut that lies `x` beside the line of sight, across itself, opens by
+//! It cannot move, but turn about the object; angles are told as from the reading distance `R` ([`READING_MM`]). A cut between
+//! depths `a` and `b` then opens by `|n . e| |b - a| / R^2` for an eye at `R` that moves by `e`, which is turned by `e / R`. Coming
+//! nearer, an eye sees what parallel rays do not: at the distance `D`, a cut that lies `x` beside the line of sight, across itself,
+//! opens by
 //! `x |b - a| / D^2`. From where that is ten arc-minutes at the worst cut on the forest is one picture. Two eyes are not judged.
 
 mod confirm;
@@ -66,7 +67,8 @@ use crate::viewmap::{Target, ViewMap};
 use room::{movement_until, one_picture_from, stereo_distance, worst};
 use sides::sides;
 
-/// As from the reading distance, how far an eye at infinity is followed, millimetres: by 60 degrees, where all but edges of a relief is gone.
+/// As from the reading distance, how far an eye at infinity is followed, millimetres: by 60 degrees, where all but edges of a relief
+/// is gone.
 const MOST_TURNED_MM: f64 = 1.732 * READING_MM;
 
 /// Measures a view by the closed form.

@@ -1,8 +1,8 @@
 //! Pictures of a plan: the layout before and after the search, the search itself, and what camouflage costs.
 //!
 //! Takes views, what was wanted of the layout, and what the planner found. Gives pages ([`Plan`]) and one animated SVG. Indices in
-//! [`Planned`] must be those of the views and of the brief's shapes; what a fault is in words comes from outside, as [`Tell`]. Colours are never alone: pillars carry their view's
-//! letter where it can be read, faults are crossed out, regions are dashed.
+//! [`Planned`] must be those of the views and of the brief's shapes; what a fault is in words comes from outside, as [`Tell`].
+//! Colours are never alone: pillars carry their view's letter where it can be read, faults are crossed out, regions are dashed.
 
 mod film;
 mod measures;

@@ -6,9 +6,9 @@
 //! Round 0 is the linearised problem itself.
 //!
 //! Nothing promises that it converges: cotangents of triangles that became obtuse are far off (so the paper, which found it to work for
-//! small regular meshes only), and hidden parts without bounds and with little weight run away first: on the box it wants `hidden_weight: 1`,
-//! as the paper's figure has. So the turning of the seen faces, measured without any Laplacian, watches over every round, and where
-//! the rounds do not end well the best of them is kept and the ending told.
+//! small regular meshes only), and hidden parts without bounds and with little weight run away first: on the box it wants
+//! `hidden_weight: 1`, as the paper's figure has. So the turning of the seen faces, measured without any Laplacian, watches over
+//! every round, and where the rounds do not end well the best of them is kept and the ending told.
 
 use super::problem::Problem;
 use super::sheet::Sheet;

@@ -7,10 +7,10 @@
 //! together: the paper pins one vertex, but then the result depends on which.
 //!
 //! Variants: without the term `lambda_i / lambda0_i` of Eq 7 (Fig 5) the energy is not scale invariant, so that there is nothing
-//! to be fixed by a gauge: it determines every depth itself, of every component. Without scales of groups bounds are absolute (Eq 10) and
-//! fix what they reach. With the mean curvature (Eq 7 against Eq 9,
-//! Fig 7) rows are divided by `H0_i`, never by less than a share of its mean (see [`sheet`]). `iterate` and the conic form (appendix, Eq
-//! 17) have their own modules.
+//! to be fixed by a gauge: it determines every depth itself, of every component. Without scales of groups bounds are absolute (Eq
+//! 10) and fix what they reach. With the mean curvature (Eq 7 against Eq 9,
+//! Fig 7) rows are divided by `H0_i`, never by less than a share of its mean (see [`sheet`]). `iterate` and the conic form
+//! (appendix, Eq 17) have their own modules.
 
 mod iterate;
 mod problem;

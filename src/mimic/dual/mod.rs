@@ -6,7 +6,8 @@
 //! point's (`solve`).
 //!
 //! `P` alone is singular: it has a null direction for every component of the mesh, along which `s` is scaled, and scales `mu` have next
-//! to no stiffness. Every such part of `P` is pinned: `Q = P + sigma e e'`, with one unknown `e` of each, is factorised in its place, and
+//! to no stiffness. Every such part of `P` is pinned: `Q = P + sigma e e'`, with one unknown `e` of each, is factorised in its
+//! place, and
 //! `n = sigma Q^-1 e` is the direction in which the part gives way (1 everywhere for a component). With amounts `t` of them as free
 //! unknowns
 //!
@@ -29,8 +30,8 @@ use factor::Half;
 use pinned::Pinned;
 use rayon::prelude::*;
 
-/// Rows are held to this, in units of the unknowns: a tenth of what they are tightened by (`lazily::MARGIN`). Solutions are uncertain by
-/// 2e-8 at 50,000 vertices; at 1e-9 a skull went on for twelve rounds without getting better.
+/// Rows are held to this, in units of the unknowns: a tenth of what they are tightened by (`lazily::MARGIN`). Solutions are
+/// uncertain by 2e-8 at 50,000 vertices; at 1e-9 a skull went on for twelve rounds without getting better.
 const HELD: f64 = 1e-7;
 /// What the certificate must be below.
 const PROVED: f64 = 1e-6;

@@ -102,7 +102,8 @@ fn through(reader: &mut Reader, raw: &RawDepth) -> Option<bool> {
     through
 }
 
-/// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the eyes.
+/// The layer of a body, of which a plane is known or not: defaults filled in. Whether it leaves the body standing is seen from the
+/// eyes.
 pub(crate) fn settled_on_body(reader: &mut Reader, flat: bool, wish: &Wish, entry: &Span) -> Layer {
     let span = wish.span.as_ref().unwrap_or(entry);
     let through = wish.through == Some(true);

@@ -71,7 +71,8 @@ pub(crate) fn simple(mut points: Vec<DVec2>) -> Result<Vec<DVec2>, String> {
     Ok(points)
 }
 
-/// The closed prism over a simple counter-clockwise polygon, outward oriented. Vertices: the ring at the bottom, then the ring at the top.
+/// The closed prism over a simple counter-clockwise polygon, outward oriented. Vertices: the ring at the bottom, then the ring at
+/// the top.
 pub(crate) fn prism(profile: &[DVec2], bottom: f64, top: f64) -> TriMesh {
     let n = profile.len();
     let ring = |z: f64| profile.iter().map(move |p| DVec3::new(p.x, p.y, z));
