@@ -13,10 +13,12 @@ macro_rules! indices {
         impl $name {
             /// # Panics
             /// Above `u32::MAX`: meshes are refused long before they are so large.
+            #[inline]
             pub fn new(position: usize) -> Self {
                 Self(u32::try_from(position).expect("fewer than 2^32 entries"))
             }
 
+            #[inline]
             pub const fn at(self) -> usize {
                 self.0 as usize
             }
@@ -25,6 +27,7 @@ macro_rules! indices {
             ///
             /// # Panics
             /// As [`Self::new`].
+            #[inline]
             pub fn plus(self, before: usize) -> Self {
                 Self::new(self.at() + before)
             }
@@ -38,12 +41,14 @@ macro_rules! indices {
         impl<T> std::ops::Index<$name> for [T] {
             type Output = T;
 
+            #[inline]
             fn index(&self, index: $name) -> &T {
                 &self[index.at()]
             }
         }
 
         impl<T> std::ops::IndexMut<$name> for [T] {
+            #[inline]
             fn index_mut(&mut self, index: $name) -> &mut T {
                 &mut self[index.at()]
             }
@@ -52,12 +57,14 @@ macro_rules! indices {
         impl<T> std::ops::Index<$name> for Vec<T> {
             type Output = T;
 
+            #[inline]
             fn index(&self, index: $name) -> &T {
                 &self[index.at()]
             }
         }
 
         impl<T> std::ops::IndexMut<$name> for Vec<T> {
+            #[inline]
             fn index_mut(&mut self, index: $name) -> &mut T {
                 &mut self[index.at()]
             }
