@@ -5,9 +5,11 @@
 //! sheets meet. Neither the program's rows nor its solution are used.
 
 use crate::groups::anchor;
+use crate::index::CellId;
 use crate::mimic::TOGETHER_MM;
 use crate::relief::Relief;
 use crate::sight::Sight;
+use crate::support::Slab;
 use crate::viewmap::Image;
 
 /// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
@@ -15,14 +17,10 @@ const EQUAL_MM: f64 = 1e-6;
 
 /// How far the relief leaves its layer anywhere but at free corners, millimetres along the ray.
 pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
-    let Sight { image, groups, .. } = sight;
+    let image = &sight.image;
     let map = &image.map;
     let mut worst = 0.0f64;
-    for (c, cell) in map.all() {
-        let slab = cell.support.and_then(|s| groups.slabs[s]);
-        let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
-            continue;
-        };
+    for (c, depths, slab) in on_layers(sight, relief) {
         let free = relief.free.get(c.at()).copied().unwrap_or_default();
         let corners = map.triangle(c).into_iter().zip(depths).enumerate();
         for (k, (q, z)) in corners.filter(|(k, _)| !free[*k]) {
@@ -33,16 +31,18 @@ pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
     worst
 }
 
+/// Cells with a relief, with its depths at their corners and the layer of their support.
+fn on_layers(sight: &Sight, relief: &Relief) -> impl Iterator<Item = (CellId, [f64; 3], Slab)> {
+    let cells = sight.image.map.all();
+    cells.filter_map(|(c, cell)| Some((c, relief.depth[c]?, sight.groups.slabs[cell.support?]?)))
+}
+
 /// How far reliefs come before their datum and go behind it, millimetres as their layers measure it.
 pub fn reach_mm(sight: &Sight, relief: &Relief) -> (f64, f64) {
-    let Sight { image, groups, .. } = sight;
+    let image = &sight.image;
     let map = &image.map;
     let mut reach = (0.0f64, 0.0f64);
-    for (c, cell) in map.all() {
-        let slab = cell.support.and_then(|s| groups.slabs[s]);
-        let (Some(depths), Some(slab)) = (relief.depth[c], slab) else {
-            continue;
-        };
+    for (c, depths, slab) in on_layers(sight, relief) {
         for (q, z) in map.triangle(c).into_iter().zip(depths) {
             let surface = image.surface_in(&slab, c, q);
             let behind = slab.behind_datum(map.plane.direction(q), surface.first, z);

@@ -1,7 +1,7 @@
 //! Bounds at all corners of all cells.
 
 use super::anchor::anchor;
-use super::group::{Bound, Groups};
+use super::group::{Bound, Carried, Groups};
 use crate::index::{FacetId, GroupId, PointId, VertexId};
 use crate::viewmap::Image;
 
@@ -31,21 +31,21 @@ pub(crate) fn bounds(image: &Image, groups: &Groups) -> (Vec<Bound>, usize) {
     // edge agree there.
     type BoundKey = (GroupId, [Option<FacetId>; 2], PointId, [VertexId; 3]);
     let mut keyed: Vec<(BoundKey, Bound)> = Vec::new();
-    for (c, cell) in map.all() {
-        let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
-        else {
-            continue;
-        };
-        let Some(slab) = groups.slabs[support] else {
-            continue;
-        };
+    for carried in groups.carried(map) {
+        let Carried {
+            id,
+            cell,
+            group,
+            face,
+            slab,
+        } = carried;
         for (k, p) in cell.corners.into_iter().enumerate() {
             let q = map.points[p];
             let (anchor, depth) = anchor(target, face, q);
             if anchor.is_free(target) {
                 continue;
             }
-            let (near, far) = image.layer_in(&slab, c, k);
+            let (near, far) = image.layer_in(&slab, id, k);
             let mut key = [0, 1, 2].map(|k| {
                 if anchor.weights[k] > 0.0 {
                     anchor.vertices[k]

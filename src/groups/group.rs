@@ -1,8 +1,9 @@
 //! Groups and bounds as values.
 
 use super::anchor::Anchor;
-use crate::index::{CellId, ComponentId, GroupId, SupportId};
+use crate::index::{CellId, ComponentId, FaceId, GroupId, SupportId};
 use crate::support::Slab;
+use crate::viewmap::{Cell, ViewMap};
 
 /// A connected region of the image on one part of a support, of one mesh component.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,4 +39,29 @@ pub struct Groups {
     pub needed: usize,
     /// The layer of every support from this eye.
     pub slabs: Vec<Option<Slab>>,
+}
+
+/// A cell in which a support carries the model.
+pub(crate) struct Carried<'a> {
+    pub id: CellId,
+    pub cell: &'a Cell,
+    pub group: GroupId,
+    /// Of the model.
+    pub face: FaceId,
+    pub slab: Slab,
+}
+
+impl Groups {
+    /// The cells of a map that a layer carries the model in, rising.
+    pub(crate) fn carried<'a>(&'a self, map: &'a ViewMap) -> impl Iterator<Item = Carried<'a>> {
+        map.all().filter_map(|(id, cell)| {
+            Some(Carried {
+                id,
+                cell,
+                group: self.of_cell[id]?,
+                face: cell.face?,
+                slab: self.slabs[cell.support?]?,
+            })
+        })
+    }
 }

@@ -13,4 +13,5 @@ mod group;
 
 pub use anchor::{Anchor, anchor, vertex_anchor};
 pub use found::{ThinSupport, groups, with_bounds, without};
+pub(crate) use group::Carried;
 pub use group::{Bound, Group, Groups};

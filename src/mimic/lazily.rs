@@ -11,6 +11,7 @@ const BROKEN: f64 = 1e-9;
 /// Conditions are tightened by this share of a layer's width, 7 nm of 7 mm, which is above the residuals of the solver: so the
 /// result keeps them strictly.
 pub(crate) const MARGIN: f64 = 1e-6;
+
 /// Relative depths of all vertices and scales of all groups.
 pub(crate) type DepthsAndScales = (Vec<f64>, Vec<f64>);
 

@@ -1,6 +1,6 @@
 //! The optimised surface cut and scaled back, as depths over the view map.
 
-use crate::groups::anchor;
+use crate::groups::{Carried, anchor};
 use crate::mimic::Depths;
 use crate::sight::Sight;
 
@@ -27,23 +27,23 @@ pub fn relief(sight: &Sight, depths: &Depths) -> Relief {
         map.cells.len()
     };
     let mut no_layer = vec![[false; 3]; marked];
-    for (c, cell) in map.all() {
-        let (Some(group), Some(face), Some(support)) = (groups.of_cell[c], cell.face, cell.support)
-        else {
-            continue;
-        };
-        let Some(slab) = groups.slabs[support] else {
-            continue;
-        };
-        depth[c] = Some([0, 1, 2].map(|k| {
+    for carried in groups.carried(map) {
+        let Carried {
+            id,
+            cell,
+            group,
+            face,
+            slab,
+        } = carried;
+        depth[id] = Some([0, 1, 2].map(|k| {
             let q = map.points[cell.corners[k]];
             let (anchor, model_depth) = anchor(target, face, q);
             let free = model_depth * anchor.relative_depth(&depths.s) / depths.mu[group];
             if anchor.is_free(target) {
-                no_layer[c][k] = true;
+                no_layer[id][k] = true;
                 return free;
             }
-            let (near, far) = image.layer_in(&slab, c, k);
+            let (near, far) = image.layer_in(&slab, id, k);
             let kept = free.clamp(near, far.max(near));
             clamp_mm = clamp_mm.max((kept - free).abs() * map.plane.direction(q).length());
             kept

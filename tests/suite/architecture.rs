@@ -42,12 +42,12 @@ const BINARY_ONLY: [&str; 12] = [
     "stderr",
 ];
 
-struct Source {
+pub(crate) struct Source {
     /// Relative to `src`, with `/`.
-    path: String,
+    pub(crate) path: String,
     /// Without comments; lines as in the file.
     code: Vec<String>,
-    lines: Vec<String>,
+    pub(crate) lines: Vec<String>,
 }
 
 impl Source {
@@ -74,7 +74,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
-fn sources() -> Vec<Source> {
+/// All files of `src`, sorted.
+pub(crate) fn sources() -> Vec<Source> {
     let (root, mut folders, mut paths) = (root(), vec![root()], Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {

@@ -1,8 +1,7 @@
 //! One name for one thing: types, functions written twice, and the compiler that the packages ask for.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 fn root() -> &'static Path {
@@ -10,21 +9,10 @@ fn root() -> &'static Path {
 }
 
 /// All files of `src` with their text, sorted.
-fn sources() -> Vec<(PathBuf, String)> {
-    let (mut folders, mut found) = (vec![root().join("src")], Vec::new());
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                found.push((path.strip_prefix(root()).unwrap().to_owned(), text));
-            }
-        }
-    }
-    found.sort();
-    found
+fn sources() -> Vec<(String, String)> {
+    let sources = crate::architecture::sources().into_iter();
+    let text = |s: crate::architecture::Source| (format!("src/{}", s.path), s.lines.join("\n"));
+    sources.map(text).collect()
 }
 
 /// The word after a keyword at the start of a line, behind `pub` and the like.
@@ -75,7 +63,7 @@ fn a_type_name_means_one_thing() {
             let name = defined(line.trim_start(), keywords);
             // Macros define by a variable.
             if let Some(name) = name.filter(|n| !n.starts_with('$')) {
-                places.push((name.to_owned(), format!("{}:{}", path.display(), i + 1)));
+                places.push((name.to_owned(), format!("{path}:{}", i + 1)));
             }
         }
     }
@@ -127,7 +115,7 @@ fn a_function_is_written_once() {
             .into_iter()
             .filter(|(_, b)| !gives_a_field(b))
         {
-            places.push(((name, body), path.display().to_string()));
+            places.push(((name, body), path.clone()));
         }
     }
     places.sort();
