@@ -73,6 +73,7 @@
 //! | hollow | what is carved out of a support before a relief |
 //! | bed, lap | how far a relief is sunk in its support's edge, and goes on behind a nearer support |
 //! | brace | a tie between a part that would float and its support |
+//! | spare | of a corner: the surface is the same without it, within a tolerance |
 //! | bare | a support without its reliefs |
 //! | ladder, rung | ways to do a thing that are tried in turn, and the one that held |
 //! | brief | what the planner is to find |
@@ -96,8 +97,8 @@
 //! - Nothing here touches files, the clock or the terminal: the binary (`main.rs`, `cli/`) does.
 //! - The same scene gives the same bytes, whatever the thread count: no hash order, fixed orders of reduction, random numbers only in
 //!   [`planner`], from the scene's seed.
-//! - Printable formats take [`mesh::Solid`], whose only constructor checks closed, oriented, 2-manifold, free of
-//!   self-intersection and positive volume after rounding to f32.
+//! - Printable formats take [`mesh::Solid`]. Its constructors check closed, oriented, 2-manifold, free of self-intersection and positive
+//!   volume after rounding to f32; only of what [`mesh::resolved`] just left without intersections they do not look for any again.
 //! - One library, one module: `alum` in [`mesh::simplify`], `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in
 //!   `mimic::solve`, `faer` in `mimic::dual::factor`, `manifold-rust` in `carve::boolean`, `i_overlay` in `carve::hollow`, `exmex` in
 //!   `scene::supports::bodies::heights`, `rand` in [`planner`].

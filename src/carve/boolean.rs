@@ -4,7 +4,7 @@ use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
 use manifold_rust::linalg::{Vec2, Vec3};
 use manifold_rust::manifold::Manifold;
-use manifold_rust::types::{BooleanEngine, Error, MeshGL64};
+use manifold_rust::types::{Error, MeshGL64};
 use rayon::prelude::*;
 
 /// A solid the library has accepted. Operations keep f64 coordinates.
@@ -85,16 +85,6 @@ impl Boolean {
         Self::checked(self.0.difference(&other.0))
     }
 
-    /// As [`Self::plus`], of operands that may cross themselves.
-    pub fn plus_any(&self, other: &Self) -> Result<Self, BooleanError> {
-        Self::checked(self.0.union_with_engine(&other.0, BooleanEngine::Auto))
-    }
-
-    /// As [`Self::minus`], of operands that may cross themselves.
-    pub fn minus_any(&self, other: &Self) -> Result<Self, BooleanError> {
-        Self::checked(self.0.difference_with_engine(&other.0, BooleanEngine::Auto))
-    }
-
     /// What both have in common.
     pub fn common(&self, other: &Self) -> Result<Self, BooleanError> {
         Self::checked(self.0.intersection(&other.0))
@@ -145,14 +135,8 @@ impl Boolean {
         )
     }
 
-    /// As a mesh, with features below `tolerance` millimetres simplified away (0: as it is).
-    pub fn simplified(&self, tolerance: f64) -> TriMesh {
-        let solid = if tolerance > 0.0 {
-            self.0.simplify(tolerance)
-        } else {
-            self.0.clone()
-        };
-        let mesh = solid.get_mesh_gl64(-1);
+    pub fn mesh(&self) -> TriMesh {
+        let mesh = self.0.get_mesh_gl64(-1);
         let vertices = (0..mesh.num_vert())
             .map(|v| DVec3::from_array(mesh.get_vert_pos(v)))
             .collect();

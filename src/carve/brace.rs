@@ -29,7 +29,7 @@ pub(crate) fn braces(
 }
 
 fn brace(part: &Boolean, slab: &Slab) -> Result<Option<Boolean>, BooleanError> {
-    let vertices = part.simplified(0.0).vertices;
+    let vertices = part.mesh().vertices;
     let rear = vertices
         .iter()
         .map(|p| slab.offset(*p))

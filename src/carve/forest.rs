@@ -1,10 +1,9 @@
 //! What carving gives: checked solids, what was changed on the way, or why there are none.
 
 use super::boolean::BooleanError;
+use super::resolving::Resolving;
 use crate::index::CellId;
-use crate::ladder::Ladder;
-use crate::mesh::{Defect, Solid};
-use glam::DVec3;
+use crate::mesh::{Defect, Solid, Tangled};
 
 /// The forest as checked solids.
 #[derive(Clone, Debug)]
@@ -21,8 +20,6 @@ pub struct Forest {
     pub standing: Vec<Solid>,
     /// What had to be changed on the way.
     pub repairs: Repairs,
-    /// Which rungs of its ladders held.
-    pub ladders: Vec<Ladder>,
 }
 
 /// What had to be changed to make the solids sound.
@@ -36,6 +33,8 @@ pub struct Repairs {
     pub braces: usize,
     /// Volume of loose crumbs dropped, cubic millimetres.
     pub crumbs_mm3: f64,
+    /// What rounding to f32 took.
+    pub resolving: Resolving,
 }
 
 impl Repairs {
@@ -44,6 +43,7 @@ impl Repairs {
         self.dropped_cells += other.dropped_cells;
         self.braces += other.braces;
         self.crumbs_mm3 += other.crumbs_mm3;
+        self.resolving.add(&other.resolving);
     }
 }
 
@@ -54,17 +54,8 @@ pub enum CarveError {
     Boolean { place: String, source: BooleanError },
     #[error("{place} came out with defects: {}", list(.defects))]
     Unsound { place: String, defects: Vec<Defect> },
-}
-
-impl CarveError {
-    /// Where defects were found.
-    pub(super) fn places(&self) -> impl Iterator<Item = DVec3> {
-        let defects = match self {
-            Self::Boolean { .. } => &[][..],
-            Self::Unsound { defects, .. } => defects,
-        };
-        defects.iter().filter_map(|d| d.place)
-    }
+    #[error("{place}: {source}")]
+    Tangled { place: String, source: Tangled },
 }
 
 fn list(defects: &[Defect]) -> String {

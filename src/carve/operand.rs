@@ -29,9 +29,4 @@ impl Operand<'_> {
             Self::Mesh { name, .. } => name,
         }
     }
-
-    /// Whether it overlaps its support by widths that may be chosen.
-    pub(super) fn has_widths(&self) -> bool {
-        matches!(self, Self::Relief { .. })
-    }
 }

@@ -3,8 +3,9 @@
 use super::boolean::{Boolean, BooleanError};
 use super::forest::Repairs;
 use super::hollow;
+use super::sound::SPARE_MM;
 use crate::index::{CellId, SupportId};
-use crate::mesh::DisjointSets;
+use crate::mesh::{DisjointSets, without_spare_corners};
 use crate::relief::{Relief, block};
 use crate::sight::Sight;
 use crate::support::Slab;
@@ -72,7 +73,7 @@ impl<'a> ReliefOnSupport<'a> {
             repairs.filled += made.filled;
             repairs.dropped_cells += made.dropped.len();
             dropped.extend(made.dropped);
-            solids.push(Boolean::new(&made.mesh)?);
+            solids.push(Boolean::new(&without_spare_corners(made.mesh, SPARE_MM))?);
         }
         dropped.sort_unstable();
         Ok(ReliefSolid {

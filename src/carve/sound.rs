@@ -2,60 +2,37 @@
 
 use super::boolean::Boolean;
 use super::forest::CarveError;
-use crate::ladder::Ladder;
-use crate::mesh::{Mended, Solid, mend, without_cavities};
+use super::resolving::Resolving;
+use crate::mesh::{Solid, TriMesh, resolved, without_spare_corners};
 
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
 pub(crate) const CRUMB_MM3: f64 = 0.005;
 
-/// Tolerances at which slivers are simplified away, millimetres: the first is fast but may cross long faces; then as it is, or more.
-const TOLERANCES_MM: [f64; 3] = [1e-4, 0.0, 5e-4];
+/// Corners that the surface can spare within this are taken away, millimetres: a quarter of a thousandth of a printed line.
+pub(super) const SPARE_MM: f64 = 1e-4;
 
-/// A checked solid, and which rungs of its ladders held.
-pub(crate) struct Sound {
-    pub solid: Solid,
-    pub ladders: [Ladder; 2],
+/// Without corners that the surface can spare.
+pub(super) fn spared(solid: &Boolean) -> TriMesh {
+    without_spare_corners(solid.mesh(), SPARE_MM)
 }
 
-/// The result of booleans as a checked solid, simplified and mended.
+/// The result of booleans as a checked solid, and what that took.
 ///
 /// # Errors
-/// If no tolerance gives a sound one.
-pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<Sound, CarveError> {
-    let mut defects = Vec::new();
-    for (held, tolerance) in TOLERANCES_MM.into_iter().enumerate() {
-        let mesh = solid.simplified(tolerance);
-        // Vertices that move by the tolerance sweep no more than this: now and then simplifying loses whole pieces.
-        let swept = tolerance * mesh.area();
-        if tolerance > 0.0 && (mesh.volume() - solid.volume()).abs() > swept {
-            continue;
-        }
-        let Mended { mesh, rung } = mend(&mesh);
-        match Solid::new(without_cavities(mesh)) {
-            Ok(solid) => {
-                return Ok(Sound {
-                    solid,
-                    ladders: [
-                        Ladder::new(
-                            "tolerance of simplifying",
-                            Some(place),
-                            held,
-                            TOLERANCES_MM.len(),
-                        ),
-                        Ladder::new(
-                            "mending: height of slivers, then distance of faces",
-                            Some(place),
-                            rung,
-                            Mended::RUNGS,
-                        ),
-                    ],
-                });
-            }
-            Err(d) => defects = d,
-        }
-    }
-    Err(CarveError::Unsound {
+/// If faces stay in each other's way.
+pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<(Solid, Resolving), CarveError> {
+    let made = resolved(&spared(solid)).map_err(|source| CarveError::Tangled {
+        place: place.into(),
+        source,
+    })?;
+    let took = Resolving {
+        pairs: made.pairs,
+        rounds: made.rounds,
+        moved_mm: made.moved_mm,
+    };
+    let solid = Solid::of_resolved(made).map_err(|defects| CarveError::Unsound {
         place: place.into(),
         defects,
-    })
+    })?;
+    Ok((solid, took))
 }

@@ -1,71 +1,46 @@
 //! Unites all carved supports.
 
-use super::boolean::Boolean;
+use super::boolean::{Boolean, BooleanError};
 use super::forest::{CarveError, Forest, Repairs};
 use super::operand::Operand;
-use super::sound::{Sound, sound};
-use super::support::{Carved, WIDTHS, carve_support};
+use super::resolving::Resolving;
+use super::sound::{sound, spared};
+use super::support::{Carved, carve_support};
 use crate::index::{SupportId, ViewId};
-use crate::ladder::Ladder;
-use crate::mesh::Solid;
+use crate::mesh::{Solid, TriMesh};
 use crate::viewmap::SupportField;
 use rayon::prelude::*;
 
-/// Unions that came out unsound and were made again with other widths of one support: three are needed now and then.
-const UNIONS: usize = 16;
 /// Carves and unites everything.
 ///
 /// # Errors
-/// If the boolean library refuses an operand or a solid stays unsound at all widths tried, with the support.
+/// If the boolean library refuses an operand or a result does not become a solid, with its name.
 pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveError> {
-    let mut carved: Vec<Carved> = (0..field.supports.len() as u32)
+    let carved: Vec<Carved> = (0..field.supports.len() as u32)
         .into_par_iter()
-        .map(|s| carve_support(field, SupportId(s), views, 0))
+        .map(|s| carve_support(field, SupportId(s), views))
         .collect::<Result<_, _>>()?;
     let names: Vec<&str> = views.iter().map(Operand::name).collect();
-    // Meshes have no widths to try.
-    let unions = if views.iter().any(Operand::has_widths) {
-        UNIONS
-    } else {
-        1
-    };
-    for held in 0..unions {
-        let error = match unite(&carved, &names) {
-            Ok(mut forest) => {
-                forest
-                    .ladders
-                    .push(Ladder::new("union of all supports", None, held, unions));
-                return Ok(forest);
-            }
-            Err(error) if held + 1 == unions => return Err(error),
-            Err(error) => error,
-        };
-        // Of the supports at the defect the one tried least often is carved anew.
-        let near = |s: &usize| error.places().any(|p| carved[*s].is_near(p));
-        let suspects = (0..carved.len()).filter(|s| carved[*s].widths + 1 < WIDTHS.len());
-        let Some(s) = suspects.filter(near).min_by_key(|s| carved[*s].widths) else {
-            return Err(error);
-        };
-        carved[s] = carve_support(field, SupportId::new(s), views, carved[s].widths + 1)?;
-    }
-    unreachable!("the last union ends it")
+    unite(carved, &names)
 }
 
 /// The forest of carved supports; `views` are the views' names.
-fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
+fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
     let of_view = |v: ViewId| {
-        carved
-            .iter()
-            .flat_map(move |c| c.blocks.iter().filter(move |b| b.0 == v).map(|b| &b.1))
-            .collect::<Vec<_>>()
+        let of_support = |c: &Carved| {
+            let own = c.blocks.iter().filter(move |b| b.0 == v);
+            own.map(|b| b.1.clone()).collect::<Vec<_>>()
+        };
+        carved.iter().flat_map(of_support).collect()
     };
+    let all = |part: fn(&Carved) -> &Boolean| carved.iter().map(|c| part(c).clone()).collect();
     let (whole, (bare, reliefs)) = rayon::join(
-        || united(carved.iter().map(|c| &c.whole).collect(), "the forest"),
+        || united(all(|c| &c.whole), "the forest"),
         || {
             rayon::join(
-                || united(carved.iter().map(|c| &c.bare).collect(), "the bare pillars"),
+                || united(all(|c| &c.bare), "the bare pillars"),
                 || {
                     (0..views.len())
                         .into_par_iter()
@@ -75,13 +50,9 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
             )
         },
     );
-    let mut ladders: Vec<Ladder> = carved
-        .iter()
-        .flat_map(|c| c.ladders.iter().cloned())
-        .collect();
-    let mut told = |sound: Sound| {
-        ladders.extend(sound.ladders);
-        sound.solid
+    let mut told = |(solid, took): (Solid, Resolving)| {
+        repairs.resolving.add(&took);
+        solid
     };
     let whole = told(whole?.unwrap_or_else(|| unreachable!("a scene has supports")));
     let bare = told(bare?.unwrap_or_else(|| unreachable!("a scene has supports")));
@@ -96,26 +67,25 @@ fn unite(carved: &[Carved], views: &[&str]) -> Result<Forest, CarveError> {
         bare,
         reliefs,
         given_up,
-        standing: carved.iter().map(|c| c.whole.clone()).collect(),
+        standing: carved.into_iter().map(|c| c.standing).collect(),
         repairs,
-        ladders,
     })
 }
 
-/// The union of solids, sound again; `None` of nothing.
-fn united(parts: Vec<&Solid>, place: &str) -> Result<Option<Sound>, CarveError> {
+/// The union of some parts as a checked solid; `None` of nothing.
+///
+/// Every part is read anew, in order: the library numbers meshes as they come, those of different supports in the order of threads,
+/// and its results depend on that.
+fn united(parts: Vec<Boolean>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
     if parts.is_empty() {
         return Ok(None);
     }
-    let operands = parts
-        .iter()
-        .map(|s| Boolean::new(s.mesh()))
-        .collect::<Result<Vec<_>, _>>();
-    let whole = operands
-        .and_then(Boolean::union)
-        .map_err(|source| CarveError::Boolean {
-            place: place.into(),
-            source,
-        })?;
+    let meshes: Vec<TriMesh> = parts.par_iter().map(spared).collect();
+    let parts: Result<Vec<Boolean>, BooleanError> = meshes.iter().map(Boolean::new).collect();
+    let whole = parts.and_then(Boolean::union);
+    let whole = whole.map_err(|source| CarveError::Boolean {
+        place: place.into(),
+        source,
+    })?;
     sound(&whole, place).map(Some)
 }

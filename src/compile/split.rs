@@ -8,7 +8,7 @@ use crate::diag::Diagnostic;
 use crate::diagram::layout;
 use crate::formats::{Metadata, Part, write_3mf, write_stl};
 use crate::ladder::Ladder;
-use crate::mesh::{Solid, mend};
+use crate::mesh::{Solid, resolved};
 use crate::scene::Scene;
 use crate::split::{Piece, Split, SplitOptions, split};
 use crate::words::split as words;
@@ -57,10 +57,9 @@ pub(crate) fn divided(
         ladders: split.ladders(),
     };
     match spread(&split) {
-        Ok((placed, ladders)) => {
+        Ok(placed) => {
             let bytes = three_mf(scene, &split, &placed);
             divided.files.push(OutputFile::new("split.3mf", bytes));
-            divided.ladders.extend(ladders);
         }
         Err(name) => divided.warnings.push(words::left_out(&name)),
     }
@@ -108,38 +107,23 @@ fn three_mf(scene: &Scene, split: &Split, placed: &[Solid]) -> Vec<u8> {
     write_3mf(&parts, &meta, None)
 }
 
-/// The pieces side by side in rows, about the origin, with what was tried for it; or the name of one that is not sound there. A
-/// piece with a film so thin that it is sound near the origin only, where f32 is finest, is put there.
-fn spread(split: &Split) -> Result<(Vec<Solid>, Vec<Ladder>), String> {
+/// The pieces side by side in rows, about the origin; or the name of one that does not become a solid there.
+fn spread(split: &Split) -> Result<Vec<Solid>, String> {
     let places = places(split);
-    let name = |k: usize| split.pieces[k].name.clone();
-    let put = |shift: DVec3| -> Result<Vec<(Solid, usize)>, usize> {
-        let pieces = split.pieces.par_iter().zip(&places).enumerate();
-        let placed = pieces.map(|(k, (piece, at))| placed(piece, *at - shift).ok_or(k));
-        // The first failure by number, whatever thread finds it.
-        placed.collect::<Vec<_>>().into_iter().collect()
-    };
-    let (placed, shift) = match put(DVec3::ZERO) {
-        Ok(placed) => (placed, 0),
-        Err(k) => (put(places[k]).map_err(name)?, 1),
-    };
-    let (solids, mended): (Vec<Solid>, Vec<usize>) = placed.into_iter().unzip();
-    let mut ladders = vec![Ladder::new("origin of all pieces", None, shift, 2)];
-    let of_pieces = split.pieces.iter().zip(mended);
-    ladders
-        .extend(of_pieces.map(|(p, rung)| {
-            Ladder::new("moving a piece, mended at last", Some(&p.name), rung, 2)
-        }));
-    Ok((solids, ladders))
+    let pieces = split.pieces.par_iter().zip(&places);
+    let placed = pieces.map(|(piece, at)| placed(piece, *at).ok_or(&piece.name));
+    // The first failure by number, whatever thread finds it.
+    let placed: Vec<Result<Solid, &String>> = placed.collect();
+    let placed: Result<Vec<Solid>, &String> = placed.into_iter().collect();
+    placed.map_err(String::clone)
 }
 
-/// The piece moved there: as it is (0), or mended (1).
-fn placed(piece: &Piece, at: DVec3) -> Option<(Solid, usize)> {
+/// The piece moved there. Beyond 256 mm coordinates are coarser than it was made for.
+fn placed(piece: &Piece, at: DVec3) -> Option<Solid> {
     let mesh = piece.solid.mesh();
     let mesh = mesh.transformed(DMat4::from_translation(at));
-    let mended = || Solid::new(mend(&mesh).mesh).ok().map(|s| (s, 1));
-    let as_it_is = Solid::new(mesh.clone()).ok().map(|s| (s, 0));
-    as_it_is.or_else(mended)
+    let exact = Solid::new(mesh.clone()).ok();
+    exact.or_else(|| Solid::of_resolved(resolved(&mesh).ok()?).ok())
 }
 
 fn places(split: &Split) -> Vec<DVec3> {

@@ -32,11 +32,10 @@ pub(crate) fn report(
     }
 }
 
-/// The ladders of view maps and solids, and of a forest in pieces.
+/// The ladders of view maps, and of a forest in pieces.
 fn ladders(built: &Built, split: Vec<Ladder>) -> Vec<Ladder> {
     let maps = built.sights.iter().map(|s| s.image.ladder());
-    let solids = built.forest.ladders.iter().cloned();
-    maps.chain(solids).chain(split).collect()
+    maps.chain(split).collect()
 }
 
 fn views(

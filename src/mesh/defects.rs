@@ -166,6 +166,11 @@ const MAX_PAIRS: usize = 20_000;
 ///
 /// Intersections are looked for in any mesh with finite coordinates, the way shells lie only in otherwise sound ones.
 pub fn check(mesh: &TriMesh) -> Vec<Defect> {
+    check_with(mesh, || self_intersections(mesh, MAX_PAIRS))
+}
+
+/// The same, with the pairs of faces in each other's way given.
+pub(crate) fn check_with(mesh: &TriMesh, pairs: impl FnOnce() -> Vec<[FaceId; 2]>) -> Vec<Defect> {
     let fatal = unreadable(mesh);
     if !fatal.is_empty() {
         return fatal;
@@ -180,7 +185,7 @@ pub fn check(mesh: &TriMesh) -> Vec<Defect> {
         bowties.len(),
         || mesh.vertices[bowties[0]],
     );
-    let pairs = self_intersections(mesh, MAX_PAIRS);
+    let pairs = pairs();
     push(
         &mut defects,
         DefectKind::SelfIntersection,

@@ -68,6 +68,14 @@ fn partners(
     pairs
 }
 
+/// Whether two faces cut, touch or overlap each other beyond what they share. A face without area does not.
+pub(crate) fn meet(mesh: &TriMesh, pair: [FaceId; 2]) -> bool {
+    match pair.map(|f| projection_axis(&mesh.corners(f))) {
+        [Some(a), Some(b)] => faces_intersect(mesh, pair, [a, b]),
+        _ => false,
+    }
+}
+
 fn faces_intersect(mesh: &TriMesh, [a, b]: [FaceId; 2], [axis_a, axis_b]: [usize; 2]) -> bool {
     let (va, vb) = (mesh.faces[a], mesh.faces[b]);
     let shared_a = [0, 1, 2].map(|k| vb.contains(&va[k]));

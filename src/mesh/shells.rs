@@ -122,8 +122,18 @@ fn without(mut mesh: TriMesh, component: &[ComponentId], unwanted: &[bool]) -> T
     mesh
 }
 
-/// How often the faces that `count` selects go round the point: the exits less the entries of its ray along +x.
+/// How often the faces that `count` selects go round the point.
 fn winding(mesh: &TriMesh, tree: &BoxTree, point: DVec3, count: impl Fn(FaceId) -> bool) -> i32 {
+    winding_number(mesh, tree, point, |f| i32::from(count(f)))
+}
+
+/// How often the faces go round the point, each as often as `times` says: the exits less the entries of its ray along +x.
+pub fn winding_number(
+    mesh: &TriMesh,
+    tree: &BoxTree,
+    point: DVec3,
+    times: impl Fn(FaceId) -> i32,
+) -> i32 {
     let ray = Box3 {
         lo: point,
         hi: DVec3::new(f64::INFINITY, point.y, point.z),
@@ -131,8 +141,9 @@ fn winding(mesh: &TriMesh, tree: &BoxTree, point: DVec3, count: impl Fn(FaceId) 
     let mut total = 0;
     tree.overlapping(&ray, |face| {
         let face = FaceId(face.0);
-        if count(face) {
-            total += crossing(&mesh.corners(face), point);
+        let times = times(face);
+        if times != 0 {
+            total += times * crossing(&mesh.corners(face), point);
         }
         true
     });

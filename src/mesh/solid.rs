@@ -3,8 +3,9 @@
 //! After this stage there are no holes, no edges of three or four faces, no touching or intersecting faces, no faces
 //! without area, no inverted shells, and no coordinates that change when written as f32.
 
-use crate::mesh::defects::{Defect, check};
-use crate::mesh::shells::shells;
+use crate::mesh::defects::{Defect, check, check_with};
+use crate::mesh::resolve::Resolved;
+use crate::mesh::shells::{shells, without_cavities};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{drop_unreferenced, rounded_to_f32, weld};
 use glam::DVec3;
@@ -29,6 +30,21 @@ impl Solid {
         let mut mesh = weld(&rounded_to_f32(&mesh), 0.0).mesh;
         drop_unreferenced(&mut mesh);
         let defects = check(&mesh);
+        Self::checked(mesh, defects)
+    }
+
+    /// What [`resolved`](crate::mesh::resolved) gave, without hollows that nobody can reach and parts that lie in others. Checked for
+    /// all but intersections, of which that just left none.
+    ///
+    /// # Errors
+    /// Every defect that keeps it from being a solid.
+    pub fn of_resolved(resolved: Resolved) -> Result<Self, Vec<Defect>> {
+        let mesh = without_cavities(resolved.mesh);
+        let defects = check_with(&mesh, Vec::new);
+        Self::checked(mesh, defects)
+    }
+
+    fn checked(mesh: TriMesh, defects: Vec<Defect>) -> Result<Self, Vec<Defect>> {
         if !defects.is_empty() {
             return Err(defects);
         }

@@ -41,6 +41,14 @@ pub struct RepairReport {
     pub braces: usize,
     /// Loose crumbs taken away.
     pub crumbs_mm3: f64,
+    /// Pairs of faces that rounding to f32 brought into each other's way, rounds until there was none, and the farthest that a point of
+    /// the surface was moved for it.
+    #[serde(default)]
+    pub crossings: usize,
+    #[serde(default)]
+    pub crossing_rounds: usize,
+    #[serde(default)]
+    pub moved_mm: f64,
 }
 
 impl SolidReport {
@@ -106,6 +114,9 @@ impl From<&Repairs> for RepairReport {
             dropped_cells: repairs.dropped_cells,
             braces: repairs.braces,
             crumbs_mm3: repairs.crumbs_mm3,
+            crossings: repairs.resolving.pairs,
+            crossing_rounds: repairs.resolving.rounds,
+            moved_mm: repairs.resolving.moved_mm,
         }
     }
 }

@@ -15,10 +15,6 @@ pub(crate) const ENGRAVED_MM: f64 = 0.6;
 pub(crate) const STROKE_NOZZLES: [f64; 3] = [2.0, 1.5, 1.1];
 /// Pillars have met if they share more than this, cubic millimetres.
 pub(crate) const MET_MM3: f64 = 1e-6;
-/// Places at which a piece is tried that does not come out sound: far out, where f32 is coarse, a little aside of that, and at last
-/// about the origin.
-pub(crate) const PLACES: usize = 5;
-
 /// What is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitOptions {
@@ -56,8 +52,6 @@ pub struct Piece {
     pub solid: Solid,
     /// What puts it back in its place.
     pub origin: DVec3,
-    /// Which of [`PLACES`] places it came out sound at.
-    pub rung: usize,
 }
 
 /// Where a pillar goes.
@@ -84,11 +78,8 @@ pub struct PlateNumber {
 }
 
 impl Split {
-    /// What was tried in turn: places of the pieces, and strokes of the numbers beside sockets.
+    /// What was tried in turn: strokes of the numbers beside sockets.
     pub fn ladders(&self) -> Vec<Ladder> {
-        let pieces = self.pieces.iter();
-        let places =
-            pieces.map(|p| Ladder::new("position on the bed", Some(&p.name), p.rung, PLACES));
         // Without a base there are no plates for numbers to stand on.
         let plates = self.pieces.iter().any(|p| p.is_plate);
         let sockets = self.sockets.iter().filter(|_| plates);
@@ -98,7 +89,7 @@ impl Split {
             let name = "stroke of a number on a plate, none at last";
             Ladder::new(name, Some(&socket), rung, STROKE_NOZZLES.len() + 1)
         });
-        places.chain(strokes).collect()
+        strokes.collect()
     }
 }
 

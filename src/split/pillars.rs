@@ -80,10 +80,9 @@ pub(crate) fn pillar(
     let tags: Vec<String> = numbers.iter().map(|n| format!("{n:0digits$}")).collect();
     let names: Vec<&str> = members().map(|s| supports[s].name.as_str()).collect();
     let name = format!("pillar-{}", tags.join("-"));
-    let (solid, rung) = standing_on_zero(&united, -bottom, &name)?;
+    let solid = standing_on_zero(&united, -bottom, &name)?;
     Ok(Piece {
         solid,
-        rung,
         name,
         says: format!("pillar {} ({})", tags.join(" and "), names.join(", ")),
         numbers,

@@ -107,11 +107,11 @@ fn piece(made: &[Numbered], k: usize, thickness: f64, split: &Split) -> Result<P
     let (plate, numbers) = &made[k];
     let digits = made.len().to_string().len();
     let name = format!("plate-{:0digits$}", k + 1);
-    let (lo, hi) = plate.simplified(0.0).bounds().unwrap_or_default();
+    let (lo, hi) = plate.mesh().bounds().unwrap_or_default();
     let middle = ((lo + hi) / 2.0).truncate().map(grained);
     let labelled = |n: &usize| split.sockets[n - 1].label.is_some();
     let at = plate.moved(-middle.extend(0.0))?;
-    let (solid, rung) = standing_on_zero(&at, thickness, &name)?;
+    let solid = standing_on_zero(&at, thickness, &name)?;
     Ok(Piece {
         solid,
         says: format!("plate {} of {}", k + 1, made.len()),
@@ -120,6 +120,5 @@ fn piece(made: &[Numbered], k: usize, thickness: f64, split: &Split) -> Result<P
         numbers: numbers.clone(),
         is_plate: true,
         origin: middle.extend(-thickness),
-        rung,
     })
 }

@@ -32,6 +32,7 @@ mod properties;
 mod readme;
 mod render;
 mod report_html;
+mod resolve;
 mod scene;
 mod scenes;
 mod sections;

@@ -5,7 +5,6 @@ use glam::{DMat4, DQuat, DVec2, DVec3};
 use pillarforest::index::{ComponentId, FaceId, VertexId};
 use pillarforest::mesh::gate::gate;
 use pillarforest::mesh::polygon::triangulate_outline;
-use pillarforest::mesh::separate::separate;
 use pillarforest::mesh::{
     Defect, DefectKind, Solid, TriMesh, check, face_components, face_neighbours,
     self_intersections, snap_to_f32, vertex_parts, weld, without_cavities,
@@ -375,39 +374,6 @@ fn the_gate_repairs_and_says_so() {
     let mut open = cube();
     open.faces.pop();
     assert_eq!(told(open, "3 open edges").faces.len(), 11);
-}
-
-/// A cube that stands on another, turned and moved aside, and reaches `deep` millimetres into it.
-fn stacked(deep: f64) -> TriMesh {
-    let by = DMat4::from_rotation_translation(
-        DQuat::from_rotation_z(0.3),
-        DVec3::new(0.2, 0.1, 1.0 - deep),
-    );
-    let mut mesh = cuboid([0.0; 3], [1.0; 3]);
-    mesh.append(&cuboid([0.0; 3], [1.0; 3]).transformed(by));
-    mesh
-}
-
-#[test]
-fn surfaces_that_cut_each_other_by_rounding_are_drawn_apart() {
-    let before = stacked(2e-5);
-    let pairs = self_intersections(&before, 100);
-    assert!(!pairs.is_empty());
-    let mut after = before.clone();
-    assert!(separate(&mut after, &pairs).is_some());
-    assert!(self_intersections(&after, 100).is_empty());
-    assert_eq!(before.faces, after.faces);
-    let moved = before.vertices.iter().zip(&after.vertices);
-    let farthest = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-    assert!((1e-5..5e-3).contains(&farthest), "{farthest}");
-}
-
-#[test]
-fn real_overlaps_are_left_as_they_are() {
-    let before = stacked(0.1);
-    let mut after = before.clone();
-    assert!(separate(&mut after, &self_intersections(&before, 100)).is_none());
-    assert_eq!(before, after);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::scene::CUBE;
 use crate::shapes::{ORANGE, boxes};
 use glam::DVec3;
-use pillarforest::carve::{Forest, Repairs};
+use pillarforest::carve::{Forest, Repairs, Resolving};
 use pillarforest::certify::camouflage::{Camouflage, CurvePoint};
 use pillarforest::certify::conflicts::{Disturbance, Trouble};
 use pillarforest::certify::coverage::{Cause, Coverage, Gap, ModelCoverage};
@@ -515,9 +515,13 @@ fn apart() -> Forest {
             dropped_cells: 3,
             braces: 1,
             crumbs_mm3: 0.25,
+            resolving: Resolving {
+                pairs: 5,
+                rounds: 2,
+                moved_mm: 0.0005,
+            },
         },
         whole,
-        ladders: Vec::new(),
     }
 }
 
@@ -531,6 +535,11 @@ fn checks_of_the_solid_are_counts_that_can_be_wrong_and_repairs_are_none() {
     assert_eq!(found, [(0, 0, true), (2, 1, false), (3, 0, false)]);
     assert_eq!(solid.repairs.filled_corners, 7);
     assert_eq!(solid.repairs.crumbs_mm3, 0.25);
+    assert_eq!(
+        (solid.repairs.crossings, solid.repairs.crossing_rounds),
+        (5, 2)
+    );
+    assert_eq!(solid.repairs.moved_mm, 0.0005);
 }
 
 #[test]

@@ -143,6 +143,14 @@ impl Report {
                 "loose crumbs dropped",
                 measure(s.repairs.crumbs_mm3, 3, "mm³"),
             ),
+            (
+                "crossings resolved after rounding",
+                count(s.repairs.crossings),
+            ),
+            (
+                "moved for them by at most",
+                measure(s.repairs.moved_mm, 4, "mm"),
+            ),
         ]);
         let row = |c: &SolidCheck| {
             [
