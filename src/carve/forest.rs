@@ -1,9 +1,8 @@
 //! What carving gives: checked solids, what was changed on the way, or why there are none.
 
 use super::boolean::BooleanError;
-use super::resolving::Resolving;
 use crate::index::CellId;
-use crate::mesh::{Defect, Solid, Tangled};
+use crate::mesh::{Defect, Resolving, Solid, Tangled};
 
 /// The forest as checked solids.
 #[derive(Clone, Debug)]

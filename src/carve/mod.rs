@@ -4,8 +4,9 @@
 //! forest, the bare part (base and pillars) and each view's reliefs as checked solids. Promises: closed, oriented, 2-manifold, free
 //! of self-intersection, in f32.
 //!
-//! All booleans are in f64, of operands without corners that their surfaces can spare. Rounding to f32 comes once, at the end, with all
-//! that it takes ([`resolved`](crate::mesh::resolved)): nothing is tried a second time with other numbers.
+//! Booleans are in f64, and reliefs go into them without corners that their surfaces can spare. Results are rounded to f32 at the end,
+//! with all that it takes ([`resolved`](crate::mesh::resolved)): nothing is tried a second time with other numbers. A mesh that is
+//! built as it is may cross itself, so it is resolved before.
 //!
 //! Operands never share a wall. The carving reaches deeper than any relief, to half-way inside the relief's solid backing, and
 //! is a hair narrower than the relief where the support goes on beside it (so the relief's edge is bedded in the support) but
@@ -17,13 +18,11 @@ mod forest;
 pub(crate) mod hollow;
 mod operand;
 mod piece;
-mod resolving;
 mod sound;
 mod support;
 mod unite;
 
 pub use forest::{CarveError, Forest, Repairs};
 pub use operand::Operand;
-pub use resolving::Resolving;
 pub(crate) use sound::{CRUMB_MM3, sound};
 pub use unite::carve;

@@ -2,8 +2,7 @@
 
 use super::boolean::Boolean;
 use super::forest::CarveError;
-use super::resolving::Resolving;
-use crate::mesh::{Solid, TriMesh, resolved, without_spare_corners};
+use crate::mesh::{Resolving, Solid, TriMesh, resolved, without_spare_corners};
 
 /// Loose crumbs smaller than this are dropped, cubic millimetres: a tenth of what a nozzle can lay down as a dot.
 pub(crate) const CRUMB_MM3: f64 = 0.005;
@@ -19,17 +18,21 @@ pub(super) fn spared(solid: &Boolean) -> TriMesh {
 /// The result of booleans as a checked solid, and what that took.
 ///
 /// # Errors
-/// If faces stay in each other's way.
+/// As [`sound_mesh`].
 pub(crate) fn sound(solid: &Boolean, place: &str) -> Result<(Solid, Resolving), CarveError> {
-    let made = resolved(&spared(solid)).map_err(|source| CarveError::Tangled {
+    sound_mesh(&spared(solid), place)
+}
+
+/// The same of what is already without spare corners.
+///
+/// # Errors
+/// If faces stay in each other's way.
+pub(super) fn sound_mesh(mesh: &TriMesh, place: &str) -> Result<(Solid, Resolving), CarveError> {
+    let made = resolved(mesh).map_err(|source| CarveError::Tangled {
         place: place.into(),
         source,
     })?;
-    let took = Resolving {
-        pairs: made.pairs,
-        rounds: made.rounds,
-        moved_mm: made.moved_mm,
-    };
+    let took = made.took;
     let solid = Solid::of_resolved(made).map_err(|defects| CarveError::Unsound {
         place: place.into(),
         defects,

@@ -5,7 +5,7 @@ use super::brace::braces;
 use super::forest::{CarveError, Repairs};
 use super::operand::Operand;
 use super::piece::ReliefOnSupport;
-use super::sound::{CRUMB_MM3, sound};
+use super::sound::{CRUMB_MM3, sound_mesh, spared};
 use crate::index::{CellId, SupportId, ViewId};
 use crate::mesh::{Solid, TriMesh, resolved, without_cavities};
 use crate::support::{Slab, Support};
@@ -17,11 +17,11 @@ const BED_MM: f64 = 0.012;
 /// How far a relief goes on behind a nearer support, millimetres.
 const LAP_MM: f64 = 0.040;
 
-/// One support with its reliefs. The booleans are in f64: they are rounded once, when all supports are united.
+/// One support with its reliefs. All but `standing` is in f64, without spare corners: it is rounded when all supports are united.
 pub(crate) struct Carved {
-    pub whole: Boolean,
-    pub bare: Boolean,
-    pub blocks: Vec<(ViewId, Boolean)>,
+    pub whole: TriMesh,
+    pub bare: TriMesh,
+    pub blocks: Vec<(ViewId, TriMesh)>,
     /// `whole` by itself, checked.
     pub standing: Solid,
     /// Cells given up, by view.
@@ -107,6 +107,7 @@ impl SupportWork<'_> {
             place: place(),
             source,
         })?;
+        self.repairs.resolving.add(&made.took);
         let solid = Boolean::new(&without_cavities(made.into_mesh()));
         self.blocks.push(OnSupport {
             view,
@@ -155,13 +156,14 @@ impl SupportWork<'_> {
 
     fn checked(mut self, whole: Boolean) -> Result<Carved, CarveError> {
         let place = format!("{} (with reliefs)", self.support.name);
-        let (standing, took) = sound(&whole, &place)?;
+        let whole = spared(&whole);
+        let (standing, took) = sound_mesh(&whole, &place)?;
         self.repairs.resolving.add(&took);
         let blocks = self.blocks.into_iter().filter(|b| !b.solid.is_empty());
         Ok(Carved {
             whole,
-            bare: self.bare,
-            blocks: blocks.map(|b| (b.view, b.solid)).collect(),
+            bare: spared(&self.bare),
+            blocks: blocks.map(|b| (b.view, spared(&b.solid))).collect(),
             standing,
             given_up: self.given_up,
             repairs: self.repairs,

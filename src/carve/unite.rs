@@ -3,11 +3,10 @@
 use super::boolean::{Boolean, BooleanError};
 use super::forest::{CarveError, Forest, Repairs};
 use super::operand::Operand;
-use super::resolving::Resolving;
-use super::sound::{sound, spared};
+use super::sound::sound;
 use super::support::{Carved, carve_support};
 use crate::index::{SupportId, ViewId};
-use crate::mesh::{Solid, TriMesh};
+use crate::mesh::{Resolving, Solid, TriMesh};
 use crate::viewmap::SupportField;
 use rayon::prelude::*;
 
@@ -29,18 +28,14 @@ fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
     let mut repairs = Repairs::default();
     carved.iter().for_each(|c| repairs.add(&c.repairs));
     let of_view = |v: ViewId| {
-        let of_support = |c: &Carved| {
-            let own = c.blocks.iter().filter(move |b| b.0 == v);
-            own.map(|b| b.1.clone()).collect::<Vec<_>>()
-        };
-        carved.iter().flat_map(of_support).collect()
+        let blocks = carved.iter().flat_map(|c| &c.blocks);
+        blocks.filter(|b| b.0 == v).map(|b| &b.1).collect()
     };
-    let all = |part: fn(&Carved) -> &Boolean| carved.iter().map(|c| part(c).clone()).collect();
     let (whole, (bare, reliefs)) = rayon::join(
-        || united(all(|c| &c.whole), "the forest"),
+        || united(carved.iter().map(|c| &c.whole).collect(), "the forest"),
         || {
             rayon::join(
-                || united(all(|c| &c.bare), "the bare pillars"),
+                || united(carved.iter().map(|c| &c.bare).collect(), "the bare pillars"),
                 || {
                     (0..views.len())
                         .into_par_iter()
@@ -74,14 +69,13 @@ fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
 
 /// The union of some parts as a checked solid; `None` of nothing.
 ///
-/// Every part is read anew, in order: the library numbers meshes as they come, those of different supports in the order of threads,
+/// Every part is read here, in order: the library numbers meshes as they come, those of different supports in the order of threads,
 /// and its results depend on that.
-fn united(parts: Vec<Boolean>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
+fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
     if parts.is_empty() {
         return Ok(None);
     }
-    let meshes: Vec<TriMesh> = parts.par_iter().map(spared).collect();
-    let parts: Result<Vec<Boolean>, BooleanError> = meshes.iter().map(Boolean::new).collect();
+    let parts: Result<Vec<Boolean>, BooleanError> = parts.into_iter().map(Boolean::new).collect();
     let whole = parts.and_then(Boolean::union);
     let whole = whole.map_err(|source| CarveError::Boolean {
         place: place.into(),

@@ -23,6 +23,12 @@ impl Box3 {
         }
     }
 
+    /// Of all faces, in their order.
+    pub fn of_faces(mesh: &TriMesh) -> Vec<Self> {
+        let faces = FaceId::all(mesh.faces.len());
+        faces.map(|f| Self::of_face(mesh, f)).collect()
+    }
+
     pub fn overlaps(&self, other: &Self) -> bool {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
@@ -77,6 +83,11 @@ impl BoxTree {
             order,
             boxes,
         }
+    }
+
+    /// Of all faces of a mesh, numbered as they are.
+    pub fn of_faces(mesh: &TriMesh) -> Self {
+        Self::new(&Box3::of_faces(mesh))
     }
 
     /// Box numbers in an order in which neighbours are near each other.

@@ -5,13 +5,13 @@
 //! every flat part is Delaunay (Lawson 1977). No corner moves, and the surface moves by less than [`FLAT_MM`].
 
 use crate::index::{FaceId, VertexId};
-use crate::mesh::topology::{DisjointSets, face_neighbours};
+use crate::mesh::topology::{DisjointSets, face_neighbours, sides};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use robust::Coord;
 
-/// Corners this near to a face's plane lie in it, millimetres: an eighth of an f32 step at 100 mm. Below 1e-9 the noise of booleans
-/// tears flat parts apart; above an f32 step, faces that only look flat would be flipped visibly.
+/// Corners this near to a face's plane lie in it, millimetres: an eighth of an f32 step at 100 mm, so that a flip moves the surface by
+/// less than rounding does anyway.
 const FLAT_MM: f64 = 1e-6;
 
 /// Flips edges within flat parts until they are Delaunay; gives how many. Edges with other than two faces stay.
@@ -28,7 +28,7 @@ pub fn make_delaunay(mesh: &mut TriMesh) -> usize {
     }
     let mut work = Flips { mesh, across, seen };
     let mut flips = 0;
-    // Seen the same way throughout a part every flip lowers the surface over the paraboloid: none comes back.
+    // A part is seen the same way throughout, so every flip lowers its lifted surface (Lawson's potential): none comes back.
     while let Some((f, side)) = queue.pop() {
         let Some((k, g)) = work.beyond(f, side) else {
             continue;
@@ -41,10 +41,6 @@ pub fn make_delaunay(mesh: &mut TriMesh) -> usize {
         }
     }
     flips
-}
-
-fn sides(face: [VertexId; 3]) -> [[VertexId; 2]; 3] {
-    [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]])
 }
 
 /// How a flat part is seen as a figure in the plane: along an axis, from the front.
@@ -77,21 +73,21 @@ fn flat_parts(mesh: &TriMesh, across: &[[Option<FaceId>; 3]]) -> Vec<Option<Flat
             }
         }
     }
-    let mut shadows = vec![None; mesh.faces.len()];
+    let mut seen = vec![None; mesh.faces.len()];
     for part in parts.members().into_iter().filter(|p| p.len() > 1) {
         let normals = part.iter().map(|f| mesh.area_vector(FaceId::new(*f)));
         let largest = normals.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let normal = largest.unwrap_or_default();
         let axis = normal.abs().max_position();
         for f in &part {
-            shadows[*f] = Some(FlatPart {
+            seen[*f] = Some(FlatPart {
                 part: FaceId::new(part[0]),
                 axis,
                 from_below: normal[axis] < 0.0,
             });
         }
     }
-    shadows
+    seen
 }
 
 /// Whether the smaller of two faces lies in the plane of the larger.
@@ -149,10 +145,10 @@ impl Flips<'_> {
 
     /// Whether `a` to `b` is the better diagonal of a figure in the plane.
     fn improves(&self, f: FaceId, g: FaceId, quad: [VertexId; 4]) -> bool {
-        let Some(shadow) = self.seen[f].filter(|_| self.seen[f] == self.seen[g]) else {
+        let Some(part) = self.seen[f].filter(|_| self.seen[f] == self.seen[g]) else {
             return false;
         };
-        let [u, v, a, b] = quad.map(|x| shadow.of(self.mesh.vertices[x]));
+        let [u, v, a, b] = quad.map(|x| part.of(self.mesh.vertices[x]));
         let upright = |p, q, r| robust::orient2d(p, q, r) > 0.0;
         upright(u, v, a)
             && upright(v, u, b)
@@ -173,8 +169,8 @@ impl Flips<'_> {
             let k = face.iter().position(|v| *v == a);
             match k.and_then(|k| self.across[at][k]) {
                 Some(next) if next != f => at = next,
-                // Round once, or at an edge of more than two faces: then `b` may be anywhere.
                 Some(_) => return false,
+                // At an edge of more than two faces `b` may be anywhere beyond.
                 None => return true,
             }
         }

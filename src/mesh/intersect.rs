@@ -19,9 +19,7 @@ const BLOCK: usize = 1 << 10;
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.
 pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
-    let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
-        .map(|f| Box3::of_face(mesh, f))
-        .collect();
+    let boxes = Box3::of_faces(mesh);
     let flat: Vec<Option<usize>> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))

@@ -21,7 +21,7 @@ pub mod weld;
 pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar, picked};
 pub use defects::{Defect, DefectKind, check};
 pub use intersect::self_intersections;
-pub use resolve::{Resolved, Tangled, resolved};
+pub use resolve::{Resolved, Resolving, Tangled, resolved};
 pub use shells::without_cavities;
 pub use simplify::{Simplified, simplified};
 pub use solid::Solid;

@@ -67,10 +67,7 @@ fn place(mesh: &TriMesh, component: &[ComponentId], shells: &mut [Shell]) {
             shell.winding = i32::from(shell.volume < 0.0);
         }
     } else if shells.len() > 1 {
-        let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
-            .map(|f| Box3::of_face(mesh, f))
-            .collect();
-        let tree = BoxTree::new(&boxes);
+        let tree = BoxTree::of_faces(mesh);
         shells.par_iter_mut().enumerate().for_each(|(own, shell)| {
             let point = mesh.corners(shell.first_face)[0];
             shell.winding = winding(mesh, &tree, point, |face| component[face].at() != own);
@@ -95,10 +92,7 @@ pub fn without_cavities(mesh: TriMesh) -> TriMesh {
 fn buried(mesh: &TriMesh, component: &[ComponentId]) -> Vec<bool> {
     let mut buried: Vec<bool> = shells(mesh).iter().map(|s| s.winding > 0).collect();
     if buried.contains(&true) {
-        let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
-            .map(|f| Box3::of_face(mesh, f))
-            .collect();
-        let tree = BoxTree::new(&boxes);
+        let tree = BoxTree::of_faces(mesh);
         for (face, own) in FaceId::all(component.len()).zip(component) {
             if buried[*own] {
                 let middle = mesh.corners(face).iter().sum::<DVec3>() / 3.0;

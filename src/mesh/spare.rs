@@ -1,10 +1,11 @@
 //! Corners that a surface can spare: where it is flat, or along straight edges.
 //!
 //! A relief has a corner wherever a line of its view map crosses one of the model's edges, and a boolean adds more; most of them lie in
-//! faces or edges that go on straight. Takes a closed manifold; moves each such corner onto a neighbour. Promises that no place of the
-//! surface moves by more than the tolerance, however many corners go, and that no face turns over. What crosses afterwards is for
-//! [`resolved`](crate::mesh::resolved) to find.
+//! faces or edges that go on straight. Takes a closed manifold; moves each such corner onto a neighbour. The surface moves by no more than
+//! the tolerance, however many corners go: measured at corners, spokes' middles and faces' centres, from before to after and back. No
+//! face turns over. What crosses afterwards is for [`resolved`](crate::mesh::resolved) to find.
 
+use crate::geom::{distance_to_triangle, height};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
@@ -124,7 +125,7 @@ impl Sparing {
             after.push(new);
         }
         let off = |p: DVec3, faces: &[[DVec3; 3]]| {
-            let far = faces.iter().map(|f| distance_to_face(p, *f));
+            let far = faces.iter().map(|f| distance_to_triangle(p, *f));
             far.fold(f64::INFINITY, f64::min)
         };
         let mut worst = off(self.corner(v), &after);
@@ -148,13 +149,10 @@ impl Sparing {
 
     /// Unit; zero for a face lower than the tolerance.
     fn normal(&self, face: &[DVec3; 3]) -> DVec3 {
-        let [a, b, c] = *face;
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let across = area_vector(face);
-        if across.length() < self.tolerance * longest {
+        if height(*face) < self.tolerance {
             DVec3::ZERO
         } else {
-            across.normalize_or_zero()
+            area_vector(face).normalize_or_zero()
         }
     }
 }
@@ -167,19 +165,4 @@ fn from_corner(face: [VertexId; 3], v: VertexId) -> [VertexId; 3] {
 
 fn area_vector([a, b, c]: &[DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
-}
-
-/// Millimetres (Ericson, Real-Time Collision Detection, 5.1.5).
-fn distance_to_face(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let normal = (b - a).cross(c - a);
-    let inside = |u: DVec3, v: DVec3| (v - u).cross(p - u).dot(normal) >= 0.0;
-    if inside(a, b) && inside(b, c) && inside(c, a) {
-        return (p - a).dot(normal.normalize_or_zero()).abs();
-    }
-    let to_side = |u: DVec3, v: DVec3| {
-        let along = v - u;
-        let share = (p - u).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-        p.distance(u + share.clamp(0.0, 1.0) * along)
-    };
-    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
 }

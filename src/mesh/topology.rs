@@ -45,6 +45,12 @@ impl FaceCorner {
     }
 }
 
+/// From corner to corner of a face, beginning at the first.
+pub fn sides(face: [VertexId; 3]) -> [[VertexId; 2]; 3] {
+    let [a, b, c] = face;
+    [[a, b], [b, c], [c, a]]
+}
+
 impl HalfEdge {
     /// Where it starts (0) and ends (1).
     pub fn end(&self, end: usize) -> FaceCorner {

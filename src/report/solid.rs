@@ -41,12 +41,13 @@ pub struct RepairReport {
     pub braces: usize,
     /// Loose crumbs taken away.
     pub crumbs_mm3: f64,
-    /// Pairs of faces that rounding to f32 brought into each other's way, rounds until there was none, and the farthest that a point of
-    /// the surface was moved for it.
+    /// Pairs of faces that rounding to f32 brought into each other's way.
     #[serde(default)]
     pub crossings: usize,
+    /// Rounds until there was none.
     #[serde(default)]
     pub crossing_rounds: usize,
+    /// The farthest that a point of the surface was moved for it.
     #[serde(default)]
     pub moved_mm: f64,
 }

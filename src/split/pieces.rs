@@ -15,6 +15,7 @@ pub(crate) const ENGRAVED_MM: f64 = 0.6;
 pub(crate) const STROKE_NOZZLES: [f64; 3] = [2.0, 1.5, 1.1];
 /// Pillars have met if they share more than this, cubic millimetres.
 pub(crate) const MET_MM3: f64 = 1e-6;
+
 /// What is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitOptions {

@@ -12,7 +12,7 @@ use pillarforest::mesh::{
 use pillarforest::words::gate::repaired;
 
 /// A box of the given corner and size, 8 vertices, 12 faces.
-fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
+pub(crate) fn cuboid(at: [f64; 3], size: [f64; 3]) -> TriMesh {
     let vertices = (0..8)
         .map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
         .map(|p| DVec3::from(at) + p * DVec3::from(size))
@@ -30,7 +30,7 @@ fn both(a: TriMesh, b: &TriMesh) -> TriMesh {
     weld(&mesh, 0.0).mesh
 }
 
-fn turned_inside_out(mut mesh: TriMesh) -> TriMesh {
+pub(crate) fn turned_inside_out(mut mesh: TriMesh) -> TriMesh {
     mesh.faces.iter_mut().for_each(|f| f.swap(1, 2));
     mesh
 }

@@ -3,7 +3,7 @@
 use crate::scene::CUBE;
 use crate::shapes::{ORANGE, boxes};
 use glam::DVec3;
-use pillarforest::carve::{Forest, Repairs, Resolving};
+use pillarforest::carve::{Forest, Repairs};
 use pillarforest::certify::camouflage::{Camouflage, CurvePoint};
 use pillarforest::certify::conflicts::{Disturbance, Trouble};
 use pillarforest::certify::coverage::{Cause, Coverage, Gap, ModelCoverage};
@@ -13,7 +13,7 @@ use pillarforest::contest::Contest;
 use pillarforest::diag::Diagnostic;
 use pillarforest::index::CellId;
 use pillarforest::ladder::{Ladder, short};
-use pillarforest::mesh::Solid;
+use pillarforest::mesh::{Resolving, Solid};
 use pillarforest::render::ViewPictures;
 use pillarforest::report::html::{Exhibits, ViewExhibit, print_sheet};
 use pillarforest::report::{

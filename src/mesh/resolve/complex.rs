@@ -3,15 +3,20 @@
 //! No manifold: any number of faces may share an edge, and no change asks. What the faces enclose is found afterwards (see
 //! [`regions`](super::regions)). Two faces with the same corners and opposite sides cancel as soon as they meet.
 //!
-//! A bent edge never comes back: whatever would bring it back gets the two edges in its place, each of them shorter. So any number of
-//! bends through given corners comes to an end.
+//! Bends are final ([`Bends`]), so any number of them through given corners comes to an end.
 
+use super::bends::{Bends, Contradiction, replaced};
+use crate::geom::{distance_to_segment, height, nearest_points};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::intersect::projection_axis;
+use crate::mesh::topology::sides;
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
-use std::collections::HashMap;
+
+/// Corners, edges and faces in each other's way that are nearer than this become one, millimetres. Sixty f32 steps at 100 mm, so that
+/// rounding a new corner hardly ever brings about the next of its kind; a thousandth of a printed line, so that nobody sees it.
+pub const NEAR_MM: f64 = 5e-4;
 
 /// See the module. A face that is gone names one vertex three times.
 pub(crate) struct Complex {
@@ -20,14 +25,11 @@ pub(crate) struct Complex {
     around: Vec<Vec<FaceId>>,
     /// How far each vertex is from the farthest place that was merged into it, millimetres.
     drift: Vec<f64>,
-    /// The corner that each bent edge goes through, and each bent face. Looked up, never iterated.
-    bent_edges: HashMap<[VertexId; 2], VertexId>,
-    // Looked up, never iterated.
-    bent_faces: HashMap<[VertexId; 3], VertexId>,
-    /// Where each merged vertex went. Looked up, never iterated.
-    merged: HashMap<VertexId, VertexId>,
+    bends: Bends,
     /// The largest distance that any point of the surface was moved by, millimetres.
     pub moved: f64,
+    /// Where that was.
+    pub moved_at: DVec3,
 }
 
 impl Complex {
@@ -41,10 +43,9 @@ impl Complex {
             drift: vec![0.0; mesh.vertices.len()],
             mesh,
             around,
-            bent_edges: Default::default(),
-            bent_faces: Default::default(),
-            merged: Default::default(),
+            bends: Bends::default(),
             moved: 0.0,
+            moved_at: DVec3::ZERO,
         }
     }
 
@@ -68,29 +69,22 @@ impl Complex {
 
     /// A face's longest side, and the corner it does not have.
     pub(crate) fn longest_side(&self, face: [VertexId; 3]) -> ([VertexId; 2], VertexId) {
-        let side = |k: usize| [face[k], face[(k + 1) % 3]];
-        let by_length =
-            |x: &usize, y: &usize| self.length(side(*x)).total_cmp(&self.length(side(*y)));
-        let k = (0..3).max_by(by_length).unwrap_or(0);
-        (side(k), face[(k + 2) % 3])
+        let [a, b, c] = face;
+        let all = sides(face).into_iter().zip([c, a, b]);
+        let longest = all.max_by(|x, y| self.length(x.0).total_cmp(&self.length(y.0)));
+        longest.unwrap_or(([a, b], c))
     }
 
     pub(crate) fn shortest_side(&self, face: [VertexId; 3]) -> [VertexId; 2] {
-        let [a, b, c] = face;
-        let sides = [[a, b], [b, c], [c, a]].into_iter();
-        let shortest = sides.min_by(|x, y| self.length(*x).total_cmp(&self.length(*y)));
-        shortest.unwrap_or([a, b])
+        let shortest = sides(face)
+            .into_iter()
+            .min_by(|x, y| self.length(*x).total_cmp(&self.length(*y)));
+        shortest.unwrap_or([face[0], face[1]])
     }
 
     /// Above its longest side, millimetres.
     pub(crate) fn height(&self, face: [VertexId; 3]) -> f64 {
-        let [a, b, c] = face.map(|v| self.place(v));
-        let longest = self.length(self.longest_side(face).0);
-        if longest == 0.0 {
-            0.0
-        } else {
-            (b - a).cross(c - a).length() / longest
-        }
+        height(face.map(|v| self.place(v)))
     }
 
     pub(crate) fn faces_at(&self, [a, b]: [VertexId; 2]) -> Vec<FaceId> {
@@ -115,7 +109,7 @@ impl Complex {
 
     /// Bends an edge to go through `v`; it may come back.
     pub(crate) fn flip_edge(&mut self, edge: [VertexId; 2], v: VertexId) {
-        self.note_bend(edge, v);
+        self.note_move(v, self.bend(edge, v));
         let [a, b] = edge;
         for f in self.faces_at(edge) {
             let face = self.mesh.faces[f];
@@ -127,95 +121,146 @@ impl Complex {
         }
     }
 
+    /// Flips the edge between two faces that lie flat, if that makes better faces of them; tells whether it did.
+    pub(crate) fn flip_if_better(&mut self, [a, b]: [VertexId; 2]) -> bool {
+        let at_edge = self.faces_at([a, b]);
+        let [f, g] = match at_edge[..] {
+            [f, g] => [f, g].map(|f| self.mesh.faces[f]),
+            _ => return false,
+        };
+        let apex = |face: [VertexId; 3]| face.into_iter().find(|v| *v != a && *v != b);
+        let runs_on = |face| sides(face).contains(&[a, b]);
+        let (Some(u), Some(v)) = (apex(f), apex(g)) else {
+            return false;
+        };
+        let new = [replaced(g, b, u), replaced(g, a, u)];
+        if u == v || runs_on(f) == runs_on(g) || new.iter().any(|x| self.bends.parts(*x).is_some())
+        {
+            return false;
+        }
+        let [p, q] = [[a, b], [u, v]].map(|edge| edge.map(|v| self.place(v)));
+        let [p, q] = nearest_points(p, q);
+        let normals = [f, g, new[0], new[1]].map(|face| self.area_vector(face));
+        let lies_flat =
+            p.distance(q) < NEAR_MM && normals.iter().all(|n| n.dot(normals[0] + normals[1]) > 0.0);
+        // A flip for less than rounding might come back.
+        if !lies_flat || self.badness(new) >= self.badness([f, g]) * (1.0 - 1e-9) {
+            return false;
+        }
+        let end = if self.drift[u] > self.drift[v] { u } else { v };
+        self.note_move(end, p.distance(q));
+        at_edge.into_iter().for_each(|f| self.remove(f));
+        new.into_iter().for_each(|face| self.put(face));
+        true
+    }
+
+    fn area_vector(&self, face: [VertexId; 3]) -> DVec3 {
+        let [a, b, c] = face.map(|v| self.place(v));
+        (b - a).cross(c - a)
+    }
+
+    /// Least for Delaunay faces, of all that have the same corners in a plane (Musin 1997, "Properties of the Delaunay triangulation").
+    fn badness(&self, faces: [[VertexId; 3]; 2]) -> f64 {
+        let of = |face: [VertexId; 3]| {
+            let squares = sides(face).into_iter().map(|e| self.length(e).powi(2));
+            squares.sum::<f64>() / self.area_vector(face).length()
+        };
+        faces.into_iter().map(of).sum()
+    }
+
     /// Bends a face to go through `v`, for good.
     pub(crate) fn bend_face(&mut self, f: FaceId, v: VertexId) {
         let face = self.mesh.faces[f];
         let [a, b, c] = face.map(|x| self.place(x));
         let normal = (b - a).cross(c - a).normalize_or_zero();
         self.note_move(v, (self.place(v) - a).dot(normal).abs());
-        self.bent_faces.insert(sorted(face), v);
+        self.bends.bend_face(face, v);
         self.remove(f);
         self.add(vec![face]);
     }
 
     /// Makes one vertex of two: the earlier, where that is.
     pub(crate) fn merge(&mut self, a: VertexId, b: VertexId) {
+        let faces = self.join([a, b]);
+        self.add(faces);
+    }
+
+    /// Makes one vertex of two; takes away the faces that change, and gives what becomes of them.
+    fn join(&mut self, [a, b]: [VertexId; 2]) -> Vec<[VertexId; 3]> {
         let (from, to) = (a.max(b), a.min(b));
         self.drift[to] = self.drift[to].max(self.drift[from] + self.length([from, to]));
         self.note_move(to, 0.0);
-        self.merged.insert(from, to);
+        self.bends.merge(from, to);
         let faces = self.around[from].clone();
         let moved = faces
             .iter()
             .map(|f| replaced(self.mesh.faces[*f], from, to));
         let moved = moved.collect();
         faces.into_iter().for_each(|f| self.remove(f));
-        self.add(moved);
+        moved
     }
 
-    fn note_bend(&mut self, [a, b]: [VertexId; 2], v: VertexId) {
-        self.note_move(
-            v,
-            distance_to_segment(self.place(v), self.place(a), self.place(b)),
-        );
+    /// How far an edge is from a corner, millimetres.
+    fn bend(&self, edge: [VertexId; 2], v: VertexId) -> f64 {
+        let [a, b] = edge.map(|v| self.place(v));
+        distance_to_segment(self.place(v), a, b)
     }
 
     fn note_move(&mut self, v: VertexId, bent: f64) {
-        self.moved = self.moved.max(self.drift[v] + bent);
-    }
-
-    /// Where a vertex is now.
-    fn now(&self, mut v: VertexId) -> VertexId {
-        while let Some(to) = self.merged.get(&v) {
-            v = *to;
+        let moved = self.drift[v] + bent;
+        if moved > self.moved {
+            self.moved = moved;
+            self.moved_at = self.place(v);
         }
-        v
     }
 
     /// Lets an edge go through `v` from now on; takes away the faces that have it, and gives them.
-    fn forbid(&mut self, [a, b]: [VertexId; 2], v: VertexId) -> Vec<[VertexId; 3]> {
-        self.note_bend([a, b], v);
-        self.bent_edges.insert([a.min(b), a.max(b)], v);
-        let faces = self.faces_at([a, b]);
+    fn forbid(&mut self, edge: [VertexId; 2], v: VertexId) -> Vec<[VertexId; 3]> {
+        self.note_move(v, self.bend(edge, v));
+        self.bends.bend_edge(edge, v);
+        let faces = self.faces_at(edge);
         let corners = faces.iter().map(|f| self.mesh.faces[*f]).collect();
         faces.into_iter().for_each(|f| self.remove(f));
         corners
     }
 
     /// Adds faces, or what they became where they or their edges were bent before.
-    fn add(&mut self, mut open: Vec<[VertexId; 3]>) {
-        let mut seen: Vec<[VertexId; 3]> = Vec::new();
-        while let Some(face) = open.pop() {
-            let [a, b, c] = face;
-            if a == b || b == c || c == a {
-                continue;
+    fn add(&mut self, mut faces: Vec<[VertexId; 3]>) {
+        let chain = loop {
+            match self.bends.chain(&faces) {
+                Ok(chain) => break chain,
+                Err(found) => faces.extend(self.settle(&found)),
             }
-            if let Some(([a, b], v)) = self.bent_side(face) {
-                if seen.contains(&face) {
-                    // Four corners in a row with neither diagonal allowed: then the long side of the four goes through them too.
-                    let (side, apex) = self.longest_side(face);
-                    open.extend(self.forbid(side, apex));
-                } else {
-                    seen.push(face);
-                    open.extend([replaced(face, b, v), replaced(face, a, v)]);
-                }
-                continue;
+            // Of corners that became one.
+            for face in &mut faces {
+                *face = face.map(|v| self.bends.now(v));
             }
-            let through = self.bent_faces.get(&sorted(face)).map(|v| self.now(*v));
-            match through.filter(|v| !face.contains(v)) {
-                Some(v) => open.extend([[a, b, v], [b, c, v], [c, a, v]]),
-                None => self.put(face),
-            }
+        };
+        for ([a, b, c], times) in chain {
+            let face = if times < 0 { [a, c, b] } else { [a, b, c] };
+            (0..times.abs()).for_each(|_| self.put(face));
         }
     }
 
-    /// A side of a face that was bent, and the corner it goes through.
-    fn bent_side(&self, face: [VertexId; 3]) -> Option<([VertexId; 2], VertexId)> {
-        (0..3).find_map(|k| {
-            let (a, b) = (face[k], face[(k + 1) % 3]);
-            let v = self.now(*self.bent_edges.get(&[a.min(b), a.max(b)])?);
-            (v != a && v != b).then_some(([a, b], v))
-        })
+    /// Ends a contradiction: corners in a row of which none may be left out, or bends that have nothing to do with each other. Takes what
+    /// moves less of two: the long side goes through the third corner, or the two nearest corners become one. Gives what becomes of the
+    /// faces that change.
+    fn settle(&mut self, found: &Contradiction) -> Vec<[VertexId; 3]> {
+        let [a, b, c] = found.face;
+        let near = self.nearest_two([a, b, c, found.through]);
+        let (side, apex) = self.longest_side(found.face);
+        let is_free = !self.bends.is_bent_edge(side);
+        if is_free && self.bend(side, apex) < self.length(near) {
+            self.forbid(side, apex)
+        } else {
+            self.join(near)
+        }
+    }
+
+    fn nearest_two(&self, corners: [VertexId; 4]) -> [VertexId; 2] {
+        let pairs = (0..4).flat_map(|i| (0..i).map(move |k| [corners[k], corners[i]]));
+        let nearest = pairs.min_by(|x, y| self.length(*x).total_cmp(&self.length(*y)));
+        nearest.unwrap_or([corners[0], corners[1]])
     }
 
     /// Adds a face, or takes away its reverse.
@@ -247,28 +292,4 @@ impl Complex {
         drop_unreferenced(&mut mesh);
         mesh
     }
-}
-
-fn replaced(face: [VertexId; 3], out: VertexId, by: VertexId) -> [VertexId; 3] {
-    face.map(|v| if v == out { by } else { v })
-}
-
-fn sorted(mut face: [VertexId; 3]) -> [VertexId; 3] {
-    face.sort_unstable();
-    face
-}
-
-/// Millimetres.
-pub(crate) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    p.distance(a.lerp(b, share_on_segment(p, a, b)))
-}
-
-/// Where on a segment the point nearest to `p` is, 0 to 1.
-pub(crate) fn share_on_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let along = b - a;
-    let square = along.length_squared();
-    if square == 0.0 {
-        return 0.0;
-    }
-    ((p - a).dot(along) / square).clamp(0.0, 1.0)
 }

@@ -5,7 +5,7 @@
 //! every connected part of the surface says where they begin.
 
 use crate::index::{FaceId, indices};
-use crate::mesh::boxes::{Box3, BoxTree};
+use crate::mesh::boxes::BoxTree;
 use crate::mesh::intersect::turn3;
 use crate::mesh::shells::{Shell, shells, winding_number};
 use crate::mesh::topology::{DisjointSets, Edges, HalfEdge, face_components_of};
@@ -160,10 +160,7 @@ fn seeds(mesh: &TriMesh, times: &[i32], edges: &Edges) -> Vec<(FaceId, i32)> {
             None => best.push((size, f)),
         }
     }
-    let boxes: Vec<Box3> = FaceId::all(mesh.faces.len())
-        .map(|f| Box3::of_face(mesh, f))
-        .collect();
-    let tree = BoxTree::new(&boxes);
+    let tree = BoxTree::of_faces(mesh);
     let seed = |(_, f): (f64, FaceId)| {
         let point = mesh.corners(f).iter().sum::<DVec3>() / 3.0;
         let beyond = winding_number(mesh, &tree, point, |g| if g == f { 0 } else { times[g] });

@@ -3,6 +3,7 @@
 //! Around such an edge the faces are paired so that each pair encloses material; vertices are split into one copy for each fan of
 //! faces that hang together, and the copies are drawn a little into their own material, so that a real gap is left.
 
+use super::complex::NEAR_MM;
 use super::regions::sorted_around;
 use crate::index::{FaceId, VertexId};
 use crate::mesh::topology::{DisjointSets, Edges, FaceCorner, HalfEdge};
@@ -10,9 +11,9 @@ use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
 
-/// How far touching surfaces are drawn back, millimetres: so far that gluing does not join them again, and three thousandths of a
+/// How far touching surfaces are drawn back, millimetres: so far that gluing does not join them again, and four thousandths of a
 /// printed line.
-const GAP_MM: f64 = 3.0 * super::NEAR_MM;
+const GAP_MM: f64 = 3.0 * NEAR_MM;
 
 /// Splits touching edges and vertices of the boundary of a solid; gives the faces that changed, rising.
 pub(crate) fn part_touching(mesh: &mut TriMesh) -> Vec<FaceId> {
