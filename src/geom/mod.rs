@@ -15,6 +15,6 @@ pub use planar::{
     barycentric, contains, gap, hull, narrowest, orient, polygon_area, segment_crossing, to_segment,
 };
 pub use spatial::{
-    distance_to_segment, distance_to_triangle, distance_within, height, nearest_points,
-    share_on_segment,
+    area_vector, distance_to_segment, distance_to_triangle, distance_within, height,
+    nearest_points, share_on_segment,
 };

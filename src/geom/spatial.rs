@@ -2,13 +2,19 @@
 
 use glam::DVec3;
 
+/// Square to a triangle, towards where its corners run counter-clockwise; as long as twice its area.
+pub fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
 /// Above its longest side; 0 for corners at one place.
-pub fn height([a, b, c]: [DVec3; 3]) -> f64 {
+pub fn height(triangle: [DVec3; 3]) -> f64 {
+    let [a, b, c] = triangle;
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
     if longest == 0.0 {
         0.0
     } else {
-        (b - a).cross(c - a).length() / longest
+        area_vector(triangle).length() / longest
     }
 }
 
@@ -28,8 +34,9 @@ pub fn share_on_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// From a point to the plane of a triangle; `None` if its foot lies outside of that.
-pub fn distance_within(p: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
-    let normal = (b - a).cross(c - a);
+pub fn distance_within(p: DVec3, triangle: [DVec3; 3]) -> Option<f64> {
+    let [a, b, c] = triangle;
+    let normal = area_vector(triangle);
     let inside = |u: DVec3, v: DVec3| (v - u).cross(p - u).dot(normal) >= 0.0;
     (inside(a, b) && inside(b, c) && inside(c, a))
         .then(|| (p - a).dot(normal.normalize_or_zero()).abs())

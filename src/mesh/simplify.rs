@@ -7,6 +7,7 @@
 //! smaller than a tetrahedron), nor that nothing intersects: no face turns by more than [`TURN`], which has been enough on all
 //! models tried.
 
+use crate::geom::area_vector;
 use crate::index::VertexId;
 use crate::mesh::topology::{DisjointSets, Edges};
 use crate::mesh::tri_mesh::TriMesh;
@@ -204,7 +205,7 @@ impl<'a> ByError<'a> {
     fn new(surfaces: &'a Surfaces, points: Vec<DVec3>) -> Self {
         let mut quadrics = vec![Quadric::NONE; points.len()];
         let mut add = |v: VertexId, q: Quadric| quadrics[v] = quadrics[v].plus(q);
-        let area = |face: [VertexId; 3]| normal(face.map(|v| points[v]));
+        let area = |face: [VertexId; 3]| area_vector(face.map(|v| points[v]));
         for face in &surfaces.faces {
             let normal = area(*face);
             let at = points[face[0]];
@@ -249,21 +250,16 @@ impl<'a> ByError<'a> {
             let at = |v: VH| self.points[number(v)];
             let before = [a, b, c].map(at);
             let after = [a, b, c].map(|v| at(if v == from { to } else { v }));
-            let [was, becomes] = [before, after].map(|p| normal(p).normalize_or_zero());
+            let [was, becomes] = [before, after].map(|p| area_vector(p).normalize_or_zero());
             was.dot(becomes) >= TURN && slimness(after) >= THINNEST.min(slimness(before))
         })
     }
 }
 
-/// Square to the face, as long as twice its area.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
-}
-
 /// Height over the longest side, relative to it.
 fn slimness(p: [DVec3; 3]) -> f64 {
     let side = |k: usize| p[k].distance_squared(p[(k + 1) % 3]);
-    normal(p).length() / side(0).max(side(1)).max(side(2))
+    area_vector(p).length() / side(0).max(side(1)).max(side(2))
 }
 
 impl Decimater<Halves> for ByError<'_> {

@@ -5,7 +5,7 @@
 //! the tolerance, however many corners go: measured at corners, spokes' middles and faces' centres, from before to after and back. No
 //! face turns over. What crosses afterwards is for [`resolved`](crate::mesh::resolved) to find.
 
-use crate::geom::{distance_to_triangle, height};
+use crate::geom::{area_vector, distance_to_triangle, height};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
@@ -108,7 +108,7 @@ impl Sparing {
                 continue;
             }
             let new = [self.corner(w), old[1], old[2]];
-            if area_vector(old).dot(area_vector(&new)) <= 0.0 {
+            if area_vector(*old).dot(area_vector(new)) <= 0.0 {
                 return None;
             }
             let turned = self.normal(&new);
@@ -152,7 +152,7 @@ impl Sparing {
         if height(*face) < self.tolerance {
             DVec3::ZERO
         } else {
-            area_vector(face).normalize_or_zero()
+            area_vector(*face).normalize_or_zero()
         }
     }
 }
@@ -161,8 +161,4 @@ impl Sparing {
 fn from_corner(face: [VertexId; 3], v: VertexId) -> [VertexId; 3] {
     let k = face.iter().position(|x| *x == v).unwrap_or(0);
     [face[k], face[(k + 1) % 3], face[(k + 2) % 3]]
-}
-
-fn area_vector([a, b, c]: &[DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
 }

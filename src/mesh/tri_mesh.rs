@@ -1,5 +1,6 @@
 //! The mesh that everything else here is about.
 
+use crate::geom::area_vector;
 use crate::index::{FaceId, VertexId};
 use glam::{DMat4, DVec3};
 
@@ -31,8 +32,7 @@ impl TriMesh {
 
     /// Twice the area times the unit normal.
     pub fn area_vector(&self, face: FaceId) -> DVec3 {
-        let [a, b, c] = self.corners(face);
-        (b - a).cross(c - a)
+        area_vector(self.corners(face))
     }
 
     /// Unit normal; zero for a degenerate face.

@@ -54,22 +54,15 @@ impl Bends {
     }
 
     /// The corner that a face goes through because it, or one of its edges, was bent; and the parts that makes of it.
-    pub(super) fn parts(
-        &self,
-        face: [VertexId; 3],
-    ) -> Option<(VertexId, impl Iterator<Item = [VertexId; 3]> + use<>)> {
-        let of_side = |[a, b]: [VertexId; 2]| {
-            let v = self.now(*self.edges.get(&ends([a, b]))?);
-            let parts = [Some(replaced(face, b, v)), Some(replaced(face, a, v)), None];
-            (v != a && v != b).then_some((v, parts))
+    pub(super) fn parts(&self, face: [VertexId; 3]) -> Option<(VertexId, Vec<[VertexId; 3]>)> {
+        let through = |v: VertexId, corners: &[VertexId]| {
+            let parts = corners.iter().map(|out| replaced(face, *out, v));
+            (!corners.contains(&v)).then(|| (v, parts.collect()))
         };
-        let of_face = || {
-            let v = self.now(*self.faces.get(&sorted(face))?);
-            let parts = face.map(|out| Some(replaced(face, out, v)));
-            (!face.contains(&v)).then_some((v, parts))
-        };
-        let (v, parts) = sides(face).into_iter().find_map(of_side).or_else(of_face)?;
-        Some((v, parts.into_iter().flatten()))
+        let of_side =
+            |[a, b]: [VertexId; 2]| through(self.now(*self.edges.get(&ends([a, b]))?), &[b, a]);
+        let of_face = || through(self.now(*self.faces.get(&sorted(face))?), &face);
+        sides(face).into_iter().find_map(of_side).or_else(of_face)
     }
 
     /// What the sum of some faces becomes.
@@ -82,7 +75,7 @@ impl Bends {
             known: Default::default(),
             open: Vec::new(),
         };
-        unfolding.sum(faces.iter().copied())
+        unfolding.sum(faces)
     }
 }
 
@@ -95,9 +88,9 @@ struct Unfolding<'a> {
 }
 
 impl Unfolding<'_> {
-    fn sum(&mut self, faces: impl Iterator<Item = [VertexId; 3]>) -> Result<Chain, Contradiction> {
+    fn sum(&mut self, faces: &[[VertexId; 3]]) -> Result<Chain, Contradiction> {
         let mut sum = Chain::new();
-        for (face, sign) in faces.filter_map(oriented) {
+        for (face, sign) in faces.iter().filter_map(|face| oriented(*face)) {
             if !self.known.contains_key(&face) {
                 let becomes = self.unfold(face)?;
                 self.known.insert(face, becomes);
@@ -118,7 +111,7 @@ impl Unfolding<'_> {
             return Err(Contradiction { face, through });
         }
         self.open.push(face);
-        let becomes = self.sum(parts)?;
+        let becomes = self.sum(&parts)?;
         self.open.pop();
         Ok(becomes)
     }

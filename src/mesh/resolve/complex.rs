@@ -6,7 +6,7 @@
 //! Bends are final ([`Bends`]), so any number of them through given corners comes to an end.
 
 use super::bends::{Bends, Contradiction, replaced};
-use crate::geom::{distance_to_segment, height, nearest_points};
+use crate::geom::{area_vector, distance_to_segment, height, nearest_points};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::intersect::projection_axis;
 use crate::mesh::topology::sides;
@@ -155,8 +155,7 @@ impl Complex {
     }
 
     fn area_vector(&self, face: [VertexId; 3]) -> DVec3 {
-        let [a, b, c] = face.map(|v| self.place(v));
-        (b - a).cross(c - a)
+        area_vector(face.map(|v| self.place(v)))
     }
 
     /// Least for Delaunay faces, of all that have the same corners in a plane (Musin 1997, "Properties of the Delaunay triangulation").
@@ -171,9 +170,9 @@ impl Complex {
     /// Bends a face to go through `v`, for good.
     pub(crate) fn bend_face(&mut self, f: FaceId, v: VertexId) {
         let face = self.mesh.faces[f];
-        let [a, b, c] = face.map(|x| self.place(x));
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        self.note_move(v, (self.place(v) - a).dot(normal).abs());
+        let normal = self.area_vector(face).normalize_or_zero();
+        let off = self.place(v) - self.place(face[0]);
+        self.note_move(v, off.dot(normal).abs());
         self.bends.bend_face(face, v);
         self.remove(f);
         self.add(vec![face]);

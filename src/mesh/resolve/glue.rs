@@ -4,7 +4,7 @@
 //! near, an edge goes through a face, and both get a corner there.
 
 use super::complex::{Complex, NEAR_MM};
-use crate::geom::{distance_to_segment, distance_within, nearest_points};
+use crate::geom::{area_vector, distance_to_segment, distance_within, nearest_points};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::topology::sides;
 use glam::DVec3;
@@ -167,7 +167,7 @@ fn near_edges(complex: &Complex, [a, b]: [FaceId; 2]) -> Option<Join> {
 fn pierced(complex: &Complex, pair: [FaceId; 2]) -> Option<Join> {
     both_ways(pair).into_iter().find_map(|[face, other]| {
         let corners = complex.mesh.corners(other);
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let normal = area_vector(corners);
         sides_of(complex, face).find_map(|e| {
             if e.iter().any(|v| complex.mesh.faces[other].contains(v)) {
                 return None;

@@ -29,6 +29,7 @@ use super::topology::sides;
 use super::tri_mesh::TriMesh;
 use super::weld::snap_to_f32;
 use crate::index::{FaceId, VertexId};
+use bends::replaced;
 use complex::Complex;
 use glam::DVec3;
 use glue::{flatten, glue_corner, glue_crossing};
@@ -41,7 +42,7 @@ pub use complex::NEAR_MM;
 
 /// Faces lower than this are dissolved, millimetres: two f32 steps at 100 mm.
 const SLIVER_MM: f64 = 2e-5;
-/// Rounds of gluing before it is given up. Solids of forests need none to four; dense grids of thin pillars took 19.
+/// Rounds of gluing before it is given up. Solids of forests need none to four; a dense grid of thin pillars ten.
 const ROUNDS: usize = 100;
 /// Times that touching surfaces are drawn apart before it is given up. Solids of forests need one or two.
 const TURNS: usize = 12;
@@ -109,28 +110,17 @@ pub fn resolved(mesh: &TriMesh) -> Result<Resolved, Tangled> {
     let mut complex = Complex::new(snap_to_f32(&mesh).mesh);
     dissolve(&mut complex);
     straighten(&mut complex, 0);
-    let moved_mm = complex.moved;
-    mesh = complex.into_mesh();
+    let mut took = Resolving::default();
+    mesh = finished(complex, &mut took)?;
     let mut pairs = self_intersections(&mesh, usize::MAX);
-    let mut took = Resolving {
-        pairs: pairs.len(),
-        rounds: 0,
-        moved_mm,
-    };
+    took.pairs = pairs.len();
     let mut place = DVec3::ZERO;
     for turn in 0..TURNS {
         // In most solids nothing is in anything's way from the first.
         if turn > 0 || !pairs.is_empty() {
             let mut complex = Complex::new(mesh);
             took.rounds += untangle(&mut complex, pairs)?;
-            took.moved_mm = took.moved_mm.max(complex.moved);
-            if complex.moved > MOST_MOVED_MM {
-                return Err(Tangled {
-                    pairs: took.pairs,
-                    place: complex.moved_at,
-                });
-            }
-            mesh = complex.into_mesh();
+            mesh = finished(complex, &mut took)?;
         }
         mesh = enclosed(mesh);
         let changed = part_touching(&mut mesh);
@@ -144,6 +134,18 @@ pub fn resolved(mesh: &TriMesh) -> Result<Resolved, Tangled> {
         pairs: pairs.len(),
         place,
     })
+}
+
+/// What a complex has become, unless that moved a point too far.
+fn finished(complex: Complex, took: &mut Resolving) -> Result<TriMesh, Tangled> {
+    took.moved_mm = took.moved_mm.max(complex.moved);
+    if complex.moved > MOST_MOVED_MM {
+        return Err(Tangled {
+            pairs: took.pairs,
+            place: complex.moved_at,
+        });
+    }
+    Ok(complex.into_mesh())
 }
 
 /// Pairs in each other's way of which one is among `faces`.
@@ -189,12 +191,8 @@ fn dissolve(complex: &mut Complex) {
 fn rises(complex: &Complex, f: FaceId, side: [VertexId; 2], apex: VertexId, height: f64) -> bool {
     complex.faces_at(side).into_iter().all(|g| {
         let face = complex.mesh.faces[g];
-        let with_apex = |out: VertexId| face.map(|v| if v == out { apex } else { v });
-        g == f
-            || face.contains(&apex)
-            || side
-                .iter()
-                .all(|out| complex.height(with_apex(*out)) > height)
+        let is_higher = |out: &VertexId| complex.height(replaced(face, *out, apex)) > height;
+        g == f || face.contains(&apex) || side.iter().all(is_higher)
     })
 }
 
@@ -221,15 +219,16 @@ fn untangle(complex: &mut Complex, mut pairs: Vec<[FaceId; 2]>) -> Result<usize,
         }
         straighten(complex, before);
         make_flat_parts_delaunay(complex, before);
-        pairs.retain(|pair| are_in_the_way(complex, *pair));
+        pairs.retain(|pair| are_alive(complex, *pair));
         pairs.extend(new_pairs(complex, &tree, first, before));
         pairs.sort_unstable();
     }
     Ok(round)
 }
 
-fn are_in_the_way(complex: &Complex, pair: [FaceId; 2]) -> bool {
-    pair.iter().all(|f| complex.is_alive(*f)) && meet(&complex.mesh, pair)
+/// Whether both are there still: then they are in each other's way as they were, for no change moves a corner.
+fn are_alive(complex: &Complex, pair: [FaceId; 2]) -> bool {
+    pair.iter().all(|f| complex.is_alive(*f))
 }
 
 /// Glues what is still in each other's way; tells whether that changed anything.
@@ -240,33 +239,37 @@ fn glue_all(
 ) -> bool {
     let mut changed = false;
     for pair in pairs {
-        changed |= are_in_the_way(complex, *pair) && glue(complex, *pair);
+        changed |= are_alive(complex, *pair) && glue(complex, *pair);
     }
     changed
 }
 
 /// Flips the edges of faces from number `since` on where that makes better faces.
 fn make_flat_parts_delaunay(complex: &mut Complex, since: usize) {
+    for_each_new(complex, since, |complex, f| {
+        // A flip takes `f` away; what comes in its place has its turn later.
+        let all = sides(complex.mesh.faces[f]);
+        all.into_iter().any(|side| complex.flip_if_better(side));
+    });
+}
+
+/// Takes away new faces without area, which meet nothing and so would stay: those from number `since` on.
+fn straighten(complex: &mut Complex, since: usize) {
+    for_each_new(complex, since, |complex, f| {
+        if complex.is_flat(f) {
+            flatten(complex, f);
+        }
+    });
+}
+
+/// Visits faces that are there when their turn comes, from number `since` on, with all that come meanwhile.
+fn for_each_new(complex: &mut Complex, since: usize, visit: impl Fn(&mut Complex, FaceId)) {
     let mut next = since;
     while next < complex.mesh.faces.len() {
         let f = FaceId::new(next);
         next += 1;
         if complex.is_alive(f) {
-            // A flip takes `f` away; what comes in its place has its turn later.
-            let all = sides(complex.mesh.faces[f]);
-            all.into_iter().any(|side| complex.flip_if_better(side));
-        }
-    }
-}
-
-/// Takes away new faces without area, which meet nothing and so would stay: those from number `since` on.
-fn straighten(complex: &mut Complex, since: usize) {
-    let mut next = since;
-    while next < complex.mesh.faces.len() {
-        let f = FaceId::new(next);
-        next += 1;
-        if complex.is_alive(f) && complex.is_flat(f) {
-            flatten(complex, f);
+            visit(complex, f);
         }
     }
 }
