@@ -2,7 +2,7 @@
 
 use super::boolean::BooleanError;
 use crate::index::CellId;
-use crate::mesh::{Defect, Resolving, Solid, Tangled};
+use crate::mesh::{Defect, Resolving, Solid, Tangled, TriMesh};
 
 /// The forest as checked solids.
 #[derive(Clone, Debug)]
@@ -15,8 +15,8 @@ pub struct Forest {
     pub reliefs: Vec<Option<Solid>>,
     /// Cells of each view's map that had to be given up, rising.
     pub given_up: Vec<Vec<CellId>>,
-    /// Every support with its reliefs, in the order of the supports.
-    pub standing: Vec<Solid>,
+    /// Every support with its reliefs, in the order of the supports: closed, not rounded and not resolved.
+    pub standing: Vec<TriMesh>,
     /// What had to be changed on the way.
     pub repairs: Repairs,
 }

@@ -5,9 +5,9 @@ use super::brace::braces;
 use super::forest::{CarveError, Repairs};
 use super::operand::Operand;
 use super::piece::ReliefOnSupport;
-use super::sound::{CRUMB_MM3, sound_mesh, spared};
+use super::sound::{CRUMB_MM3, spared};
 use crate::index::{CellId, SupportId, ViewId};
-use crate::mesh::{Solid, TriMesh, resolved, without_cavities};
+use crate::mesh::{TriMesh, resolved, without_cavities};
 use crate::support::{Slab, Support};
 use crate::viewmap::SupportField;
 
@@ -17,13 +17,11 @@ const BED_MM: f64 = 0.012;
 /// How far a relief goes on behind a nearer support, millimetres.
 const LAP_MM: f64 = 0.040;
 
-/// One support with its reliefs. All but `standing` is in f64, without spare corners: it is rounded when all supports are united.
+/// One support with its reliefs, in f64 and without spare corners: it is rounded when all supports are united.
 pub(crate) struct Carved {
     pub whole: TriMesh,
     pub bare: TriMesh,
     pub blocks: Vec<(ViewId, TriMesh)>,
-    /// `whole` by itself, checked.
-    pub standing: Solid,
     /// Cells given up, by view.
     pub given_up: Vec<(ViewId, Vec<CellId>)>,
     pub repairs: Repairs,
@@ -64,7 +62,7 @@ pub(crate) fn carve_support(
     }
     let whole = work.united().map_err(failed)?;
     work.take_apart().map_err(failed)?;
-    work.checked(whole)
+    Ok(work.carved(&whole))
 }
 
 /// What one view puts on a support.
@@ -154,19 +152,14 @@ impl SupportWork<'_> {
         Ok(())
     }
 
-    fn checked(mut self, whole: Boolean) -> Result<Carved, CarveError> {
-        let place = format!("{} (with reliefs)", self.support.name);
-        let whole = spared(&whole);
-        let (standing, took) = sound_mesh(&whole, &place)?;
-        self.repairs.resolving.add(&took);
+    fn carved(self, whole: &Boolean) -> Carved {
         let blocks = self.blocks.into_iter().filter(|b| !b.solid.is_empty());
-        Ok(Carved {
-            whole,
+        Carved {
+            whole: spared(whole),
             bare: spared(&self.bare),
             blocks: blocks.map(|b| (b.view, spared(&b.solid))).collect(),
-            standing,
             given_up: self.given_up,
             repairs: self.repairs,
-        })
+        }
     }
 }

@@ -3,9 +3,10 @@
 use super::boolean::{Boolean, BooleanError};
 use super::forest::{CarveError, Forest, Repairs};
 use super::operand::Operand;
-use super::sound::sound;
+use super::sound::{sound, sound_mesh};
 use super::support::{Carved, carve_support};
 use crate::index::{SupportId, ViewId};
+use crate::mesh::boxes::Box3;
 use crate::mesh::{Resolving, Solid, TriMesh};
 use crate::viewmap::SupportField;
 use rayon::prelude::*;
@@ -62,24 +63,46 @@ fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
         bare,
         reliefs,
         given_up,
-        standing: carved.into_iter().map(|c| c.standing).collect(),
+        standing: carved.into_iter().map(|c| c.whole).collect(),
         repairs,
     })
 }
 
 /// The union of some parts as a checked solid; `None` of nothing.
 ///
-/// Every part is read here, in order: the library numbers meshes as they come, those of different supports in the order of threads,
-/// and its results depend on that.
+/// What is read by the library is read here, in order: it numbers meshes as they come, those of different supports in the order of
+/// threads, and its results depend on that.
 fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
-    if parts.is_empty() {
-        return Ok(None);
+    let mut gathered = gathered(&parts);
+    if gathered.len() < 2 {
+        let only = gathered.pop();
+        return only.map(|mesh| sound_mesh(&mesh, place)).transpose();
     }
-    let parts: Result<Vec<Boolean>, BooleanError> = parts.into_iter().map(Boolean::new).collect();
+    let parts: Result<Vec<Boolean>, BooleanError> = gathered.iter().map(Boolean::new).collect();
     let whole = parts.and_then(Boolean::union);
     let whole = whole.map_err(|source| CarveError::Boolean {
         place: place.into(),
         source,
     })?;
     sound(&whole, place).map(Some)
+}
+
+/// Some parts as fewer: those whose boxes are apart need no boolean.
+fn gathered(parts: &[&TriMesh]) -> Vec<TriMesh> {
+    let mut gathered: Vec<(TriMesh, Vec<Box3>)> = Vec::new();
+    for part in parts {
+        let Some((lo, hi)) = part.bounds() else {
+            continue;
+        };
+        let own = Box3 { lo, hi };
+        let is_apart = |boxes: &[Box3]| boxes.iter().all(|b| !b.overlaps(&own));
+        match gathered.iter_mut().find(|(_, boxes)| is_apart(boxes)) {
+            Some((mesh, boxes)) => {
+                mesh.append(part);
+                boxes.push(own);
+            }
+            None => gathered.push(((*part).clone(), vec![own])),
+        }
+    }
+    gathered.into_iter().map(|(mesh, _)| mesh).collect()
 }

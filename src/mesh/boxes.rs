@@ -53,6 +53,10 @@ indices! {
     NodeId
 }
 
+/// A leaf of a tree.
+#[derive(Clone, Copy, Debug)]
+pub struct LeafId(NodeId);
+
 struct Node {
     bounds: Box3,
     /// A leaf's items are `first .. first + count`; an inner node has `count` 0, its left child follows it directly
@@ -90,9 +94,61 @@ impl BoxTree {
         Self::new(&Box3::of_faces(mesh))
     }
 
-    /// Box numbers in an order in which neighbours are near each other.
-    pub fn order(&self) -> &[BoxId] {
-        &self.order
+    /// In an order in which neighbours are near each other.
+    pub fn leaves(&self) -> Vec<LeafId> {
+        let all = NodeId::all(self.nodes.len());
+        let leaves = all.filter(|n| self.nodes[*n].count > 0);
+        leaves.map(LeafId).collect()
+    }
+
+    /// Calls `visit` with every two boxes that meet, of which one is in the leaf and the other one there too or in a later leaf; stops
+    /// when it returns false.
+    pub fn meeting(&self, leaf: LeafId, mut visit: impl FnMut([BoxId; 2]) -> bool) {
+        let LeafId(leaf) = leaf;
+        let bounds = self.nodes[leaf].bounds;
+        let mut stack = [NodeId(0); MAX_DEPTH];
+        let mut depth = 1;
+        while depth > 0 {
+            depth -= 1;
+            let index = stack[depth];
+            let node = &self.nodes[index];
+            if !node.bounds.overlaps(&bounds) {
+                continue;
+            }
+            if node.count == 0 {
+                stack[depth] = NodeId(node.first);
+                depth += 1;
+                // What is left of a node has smaller numbers than what is right of it.
+                if node.first > leaf.0 {
+                    stack[depth] = index.plus(1);
+                    depth += 1;
+                }
+            } else if index >= leaf && !self.meeting_of(leaf, index, &mut visit) {
+                return;
+            }
+        }
+    }
+
+    /// The same of two leaves, the first not after the second; gives whether to go on.
+    fn meeting_of(
+        &self,
+        leaf: NodeId,
+        other: NodeId,
+        visit: &mut impl FnMut([BoxId; 2]) -> bool,
+    ) -> bool {
+        let items = |n: NodeId| {
+            let node = &self.nodes[n];
+            node.first as usize..(node.first + node.count) as usize
+        };
+        for i in items(leaf) {
+            for j in items(other).filter(|j| leaf != other || *j > i) {
+                let meet = self.boxes[i].overlaps(&self.boxes[j]);
+                if meet && !visit([self.order[i], self.order[j]]) {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// Calls `visit` with the number of every box that meets `query`; stops when it returns false.

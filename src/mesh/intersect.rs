@@ -6,30 +6,29 @@
 //! Faces of zero area and faces with the same three vertices are left out: they are other defects.
 
 use crate::index::FaceId;
-use crate::mesh::boxes::{Box3, BoxTree};
+use crate::mesh::boxes::{BoxTree, LeafId};
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use rayon::prelude::*;
 use robust::{Coord, Coord3D};
 
-/// Faces tested between two looks at the limit. Larger blocks cost seconds past the limit where all faces are in one
-/// place; smaller ones cost waiting at their ends.
-const BLOCK: usize = 1 << 10;
+/// Leaves of up to four faces tested between two looks at the limit. Larger blocks cost seconds past the limit where all faces are in
+/// one place; smaller ones cost waiting at their ends.
+const BLOCK: usize = 1 << 8;
 
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.
 pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
-    let boxes = Box3::of_faces(mesh);
     let flat: Vec<Option<usize>> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))
         .collect();
-    let tree = BoxTree::new(&boxes);
+    let tree = BoxTree::of_faces(mesh);
     let mut pairs = Vec::new();
-    for block in tree.order().chunks(BLOCK) {
+    for block in tree.leaves().chunks(BLOCK) {
         let found: Vec<Vec<[FaceId; 2]>> = block
             .par_iter()
-            .map(|&a| partners(mesh, &flat, &tree, &boxes, FaceId(a.0), limit))
+            .map(|leaf| pairs_of(mesh, &flat, &tree, *leaf, limit))
             .collect();
         pairs.extend(found.into_iter().flatten());
         if pairs.len() >= limit {
@@ -40,26 +39,21 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
     pairs
 }
 
-/// The pairs of face `a` with higher faces.
-fn partners(
+/// The pairs of a leaf's faces with each other and with those of later leaves.
+fn pairs_of(
     mesh: &TriMesh,
     flat: &[Option<usize>],
     tree: &BoxTree,
-    boxes: &[Box3],
-    a: FaceId,
+    leaf: LeafId,
     limit: usize,
 ) -> Vec<[FaceId; 2]> {
     let mut pairs = Vec::new();
-    let Some(axis_a) = flat[a] else {
-        return pairs;
-    };
-    tree.overlapping(&boxes[a], |b| {
-        let b = FaceId(b.0);
-        if b > a
-            && let Some(axis_b) = flat[b]
-            && faces_intersect(mesh, [a, b], [axis_a, axis_b])
+    tree.meeting(leaf, |[a, b]| {
+        let pair = [FaceId(a.0.min(b.0)), FaceId(a.0.max(b.0))];
+        if let [Some(axis_a), Some(axis_b)] = pair.map(|f| flat[f])
+            && faces_intersect(mesh, pair, [axis_a, axis_b])
         {
-            pairs.push([a, b]);
+            pairs.push(pair);
         }
         pairs.len() < limit
     });

@@ -2,14 +2,13 @@
 //!
 //! A relief has a corner wherever a line of its view map crosses one of the model's edges, and a boolean adds more; most of them lie in
 //! faces or edges that go on straight. Takes a closed manifold; moves each such corner onto a neighbour. The surface moves by no more than
-//! the tolerance, however many corners go: measured at corners, spokes' middles and faces' centres, from before to after and back. No
-//! face turns over. What crosses afterwards is for [`resolved`](crate::mesh::resolved) to find.
+//! the tolerance, however many corners go, and no face turns over. What crosses afterwards is for [`resolved`](crate::mesh::resolved) to find.
 
-use crate::geom::{area_vector, distance_to_triangle, height};
+use crate::geom::{area_vector, height};
 use crate::index::{FaceId, VertexId};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::VecDeque;
 
 /// Faces turn by less than this, as a cosine: a degree.
@@ -23,16 +22,23 @@ pub fn without_spare_corners(mesh: TriMesh, tolerance: f64) -> TriMesh {
     for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
         face.iter().for_each(|v| around[*v].push(f));
     }
+    let count = mesh.vertices.len();
     let mut sparing = Sparing {
-        moved: vec![0.0; mesh.vertices.len()],
+        moved: vec![0.0; count],
+        is_waiting: vec![true; count],
         mesh,
         around,
         tolerance,
     };
-    let mut queue: VecDeque<VertexId> = VertexId::all(sparing.moved.len()).collect();
+    let mut queue: VecDeque<VertexId> = VertexId::all(count).collect();
     while let Some(v) = queue.pop_front() {
+        sparing.is_waiting[v] = false;
         // Every corner spared is one less: it ends.
-        queue.extend(sparing.spare(v));
+        for x in sparing.spare(v) {
+            if !std::mem::replace(&mut sparing.is_waiting[x], true) {
+                queue.push_back(x);
+            }
+        }
     }
     let mut mesh = sparing.mesh;
     mesh.faces.retain(|[a, b, _]| a != b);
@@ -45,7 +51,33 @@ struct Sparing {
     around: Vec<Vec<FaceId>>,
     /// How far the surface around each corner may be from where it was, millimetres.
     moved: Vec<f64>,
+    /// Corners to be looked at.
+    is_waiting: Vec<bool>,
     tolerance: f64,
+}
+
+/// The faces around a corner, seen along a direction from which none hides another.
+struct Star {
+    spokes: Vec<Spoke>,
+    tolerance: f64,
+}
+
+/// A face at a corner.
+struct Spoke {
+    /// From that corner on.
+    ids: [VertexId; 3],
+    corners: [DVec3; 3],
+    /// The second and third corner.
+    seen: [Seen; 2],
+    /// Unit; zero for a face lower than the tolerance.
+    normal: DVec3,
+}
+
+/// A point as it is seen from above the corner, which is the origin.
+#[derive(Clone, Copy)]
+struct Seen {
+    at: DVec2,
+    height: f64,
 }
 
 impl Sparing {
@@ -55,10 +87,18 @@ impl Sparing {
         if ring.len() > MOST_NEIGHBOURS || ring.len() != self.around[v].len() {
             return Vec::new();
         }
-        let left = self.tolerance - self.moved[v];
-        let change = |w: &VertexId| Some((self.change(v, *w, left)?, *w));
-        let changes = ring.iter().filter_map(change);
-        let best = changes.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        let Some(star) = self.star(v) else {
+            return Vec::new();
+        };
+        let mut left = self.tolerance - self.moved[v];
+        let mut best = None;
+        for w in &ring {
+            let change = star.change(*w, left);
+            if let Some(by) = change.filter(|by| best.is_none_or(|(least, _)| *by < least)) {
+                left = by;
+                best = Some((by, *w));
+            }
+        }
         let Some((by, to)) = best.filter(|(_, w)| self.ring_stays(&ring, *w)) else {
             return Vec::new();
         };
@@ -88,72 +128,124 @@ impl Sparing {
         ring
     }
 
+    /// What is around `v`; `None` if that is seen from no side as a whole.
+    fn star(&self, v: VertexId) -> Option<Star> {
+        let corners = |ids: [VertexId; 3]| ids.map(|x| self.mesh.vertices[x]);
+        let normal = |f: &FaceId| unit_normal(corners(self.mesh.faces[*f]), self.tolerance);
+        let normals: Vec<DVec3> = self.around[v].iter().map(normal).collect();
+        let first = normals.iter().find(|n| **n != DVec3::ZERO)?;
+        let by_turn = |a: &&DVec3, b: &&DVec3| a.dot(*first).total_cmp(&b.dot(*first));
+        let upright = normals.iter().filter(|n| **n != DVec3::ZERO);
+        // Halfway between the two planes of an edge.
+        let up = (first + upright.min_by(by_turn)?).try_normalize()?;
+        let (right, forward) = up.any_orthonormal_pair();
+        let seen = |p: DVec3| {
+            let from = p - self.mesh.vertices[v];
+            Seen {
+                at: DVec2::new(from.dot(right), from.dot(forward)),
+                height: from.dot(up),
+            }
+        };
+        let spokes = self.around[v].iter().zip(normals).map(|(f, normal)| {
+            let ids = from_corner(self.mesh.faces[*f], v);
+            let corners = corners(ids);
+            Spoke {
+                ids,
+                seen: [seen(corners[1]), seen(corners[2])],
+                corners,
+                normal,
+            }
+        });
+        let star = Star {
+            spokes: spokes.collect(),
+            tolerance: self.tolerance,
+        };
+        let is_upright = |s: &Spoke| s.normal == DVec3::ZERO || s.normal.dot(up) > 0.0;
+        star.spokes.iter().all(is_upright).then_some(star)
+    }
+
     /// Whether the surface stays a manifold when a corner with these neighbours moves onto `w`: they have just two in common.
     fn ring_stays(&self, ring: &[VertexId], w: VertexId) -> bool {
         let other = self.ring(w);
         let common = ring.iter().filter(|x| other.binary_search(x).is_ok());
         common.count() == 2
     }
+}
 
-    /// How far the surface around `v` moves when that goes onto `w`; `None` if by more than `left`, or if a face would turn.
-    fn change(&self, v: VertexId, w: VertexId, left: f64) -> Option<f64> {
-        let before = self.around[v].iter().map(|f| self.mesh.faces[*f]);
-        let before: Vec<[DVec3; 3]> = before
-            .map(|face| from_corner(face, v).map(|x| self.corner(x)))
-            .collect();
-        let normals: Vec<DVec3> = before.iter().map(|f| self.normal(f)).collect();
-        let mut after: Vec<[DVec3; 3]> = Vec::new();
-        for ((f, old), normal) in self.around[v].iter().zip(&before).zip(&normals) {
-            if self.mesh.faces[*f].contains(&w) {
-                continue;
-            }
-            let new = [self.corner(w), old[1], old[2]];
-            if area_vector(*old).dot(area_vector(new)) <= 0.0 {
+impl Star {
+    /// How far the surface moves when the corner goes onto its neighbour `w`; `None` if by more than `left`, or if a face would turn.
+    fn change(&self, w: VertexId, left: f64) -> Option<f64> {
+        let to = self.spokes.iter().find(|s| s.ids[1] == w)?;
+        let kept = || self.spokes.iter().filter(|s| !s.ids.contains(&w));
+        for spoke in kept() {
+            let old = spoke.corners;
+            let new = [to.corners[1], old[1], old[2]];
+            if area_vector(old).dot(area_vector(new)) <= 0.0 {
                 return None;
             }
-            let turned = self.normal(&new);
-            let is_like = |n: &DVec3| n.dot(turned) > TURN;
+            let turned = unit_normal(new, self.tolerance);
+            let is_like = |n: DVec3| n.dot(turned) > TURN;
             // A sliver has no normal worth keeping: what it becomes must look like some face there.
             let fits = turned == DVec3::ZERO
-                || match *normal {
-                    DVec3::ZERO => normals.iter().any(is_like),
-                    own => is_like(&own),
+                || match spoke.normal {
+                    DVec3::ZERO => self.spokes.iter().any(|s| is_like(s.normal)),
+                    own => is_like(own),
                 };
             if !fits {
                 return None;
             }
-            after.push(new);
         }
-        let off = |p: DVec3, faces: &[[DVec3; 3]]| {
-            let far = faces.iter().map(|f| distance_to_triangle(p, *f));
-            far.fold(f64::INFINITY, f64::min)
-        };
-        let mut worst = off(self.corner(v), &after);
-        // Corner, spokes and faces of either lie near the other.
-        for (from, to) in [(&before, &after), (&after, &before)] {
-            for [a, b, c] in from {
+        // Before and after the surface is a height over each place seen. Their difference is linear between crossings of its edges, so
+        // it is largest at one of them or at the corner.
+        let to = to.seen[0];
+        let mut worst = 0.0f64;
+        let mut under = (f64::NEG_INFINITY, 0.0);
+        for spoke in kept() {
+            let [a, b] = spoke.seen;
+            let shares = [(a.at, b.at), (b.at, to.at), (to.at, a.at)].map(|(p, q)| p.perp_dot(q));
+            let whole: f64 = shares.iter().sum();
+            if whole > 0.0 {
+                let [s, t, u] = shares.map(|s| s / whole);
+                let height = s * to.height + t * a.height + u * b.height;
+                // Rounding may leave the corner outside of all faces.
+                under = if s.min(t).min(u) > under.0 {
+                    (s.min(t).min(u), height)
+                } else {
+                    under
+                };
+            } else if spoke.normal != DVec3::ZERO {
+                return None;
+            }
+            for other in &self.spokes {
+                worst = worst.max(rise(other.seen[0], [to, a]).unwrap_or(0.0));
                 if worst > left {
                     return None;
                 }
-                worst = worst
-                    .max(off((*a + *b + *c) / 3.0, to))
-                    .max(off(a.midpoint(*b), to));
             }
         }
+        worst = worst.max(under.1.abs());
         (worst <= left).then_some(worst)
     }
+}
 
-    fn corner(&self, v: VertexId) -> DVec3 {
-        self.mesh.vertices[v]
+/// How far the way from the corner to `end` lies above or below the edge that it crosses, if it does.
+fn rise(end: Seen, [p, q]: [Seen; 2]) -> Option<f64> {
+    let (from, to) = (end.at.perp_dot(p.at), end.at.perp_dot(q.at));
+    let across = q.at - p.at;
+    let (here, there) = (across.perp_dot(-p.at), across.perp_dot(end.at - p.at));
+    if from * to >= 0.0 || here * there >= 0.0 {
+        return None;
     }
+    let height = p.height + from / (from - to) * (q.height - p.height);
+    Some((here / (here - there) * end.height - height).abs())
+}
 
-    /// Unit; zero for a face lower than the tolerance.
-    fn normal(&self, face: &[DVec3; 3]) -> DVec3 {
-        if height(*face) < self.tolerance {
-            DVec3::ZERO
-        } else {
-            area_vector(*face).normalize_or_zero()
-        }
+/// Zero for a face lower than `tolerance`.
+fn unit_normal(face: [DVec3; 3], tolerance: f64) -> DVec3 {
+    if height(face) < tolerance {
+        DVec3::ZERO
+    } else {
+        area_vector(face).normalize_or_zero()
     }
 }
 

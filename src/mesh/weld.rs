@@ -3,6 +3,7 @@
 //! Every function says what it changed; none changes the order of what it keeps.
 
 use crate::index::{FaceId, VertexId};
+use crate::mesh::topology::sorted_by_vertex;
 use crate::mesh::tri_mesh::TriMesh;
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
@@ -171,15 +172,14 @@ pub fn retain_faces(mesh: &mut TriMesh, keep: &[bool]) -> usize {
 
 /// Sets of two or more faces with the same three vertices, faces rising.
 pub fn duplicate_groups(mesh: &TriMesh) -> Vec<Vec<FaceId>> {
-    let mut keyed: Vec<([VertexId; 3], FaceId)> = FaceId::all(mesh.faces.len())
+    let keyed: Vec<([VertexId; 3], FaceId)> = FaceId::all(mesh.faces.len())
         .map(|f| {
             let mut key = mesh.faces[f];
             key.sort_unstable();
             (key, f)
         })
         .collect();
-    keyed.par_sort_unstable();
-    keyed
+    sorted_by_vertex(keyed, |(key, _)| key[0])
         .chunk_by(|a, b| a.0 == b.0)
         .filter(|same| same.len() > 1)
         .map(|same| same.iter().map(|s| s.1).collect())

@@ -21,7 +21,7 @@ pub use digits::Lettering;
 pub use foot::Foot;
 pub use pieces::{Piece, PlateNumber, Socket, Split, SplitError, SplitOptions};
 
-use crate::mesh::Solid;
+use crate::mesh::TriMesh;
 use crate::support::{Support, SupportKind};
 use glam::DVec2;
 use pieces::THINNEST_BASE_MM;
@@ -39,7 +39,7 @@ const FLOOR_MM: f64 = 1.0;
 /// A base too thin for sockets, a bed too small for any plate, or a piece that does not come out sound.
 pub fn split(
     supports: &[Support],
-    standing: &[Solid],
+    standing: &[TriMesh],
     options: &SplitOptions,
 ) -> Result<Split, SplitError> {
     let base = supports.iter().find_map(|s| match &s.kind {

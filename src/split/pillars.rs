@@ -5,17 +5,17 @@ use super::foot::Foot;
 use super::pieces::{ENGRAVED_MM, MET_MM3, Piece, STROKE_NOZZLES, SplitError, SplitOptions};
 use super::stand::{grained, moved, standing_on_zero};
 use crate::carve::boolean::{Boolean, BooleanError};
-use crate::mesh::{DisjointSets, Solid};
+use crate::mesh::{DisjointSets, TriMesh};
 use crate::support::{Support, SupportKind};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// Pillars that belong together because their reliefs meet: positions in `numbered`.
 pub(crate) fn meeting(
-    standing: &[Solid],
+    standing: &[TriMesh],
     numbered: &[usize],
 ) -> Result<Vec<Vec<usize>>, BooleanError> {
-    let boxes: Vec<(DVec3, DVec3)> = numbered.iter().map(|s| standing[*s].bounds()).collect();
+    let boxes: Vec<(DVec3, DVec3)> = numbered.iter().map(|s| bounds(&standing[*s])).collect();
     let meet = |a: usize, b: usize| {
         boxes[a].0.cmple(boxes[b].1).all() && boxes[b].0.cmple(boxes[a].1).all()
     };
@@ -23,7 +23,7 @@ pub(crate) fn meeting(
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .filter(|(a, b)| meet(*a, *b))
         .collect();
-    let solid = |k: usize| Boolean::new(standing[numbered[k]].mesh());
+    let solid = |k: usize| Boolean::new(&standing[numbered[k]]);
     let met: Vec<bool> = pairs
         .par_iter()
         .map(|(a, b)| Ok(solid(*a)?.common(&solid(*b)?)?.volume() > MET_MM3))
@@ -35,10 +35,14 @@ pub(crate) fn meeting(
     Ok(sets.members())
 }
 
+fn bounds(mesh: &TriMesh) -> (DVec3, DVec3) {
+    mesh.bounds().unwrap_or_default()
+}
+
 /// One pillar, or several whose reliefs meet, with pegs.
 pub(crate) fn pillar(
     supports: &[Support],
-    standing: &[Solid],
+    standing: &[TriMesh],
     numbered: &[usize],
     group: &[usize],
     depth: f64,
@@ -50,7 +54,7 @@ pub(crate) fn pillar(
         SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     });
     let lowest = members()
-        .map(|s| standing[s].bounds().0.z)
+        .map(|s| bounds(&standing[s]).0.z)
         .fold(f64::INFINITY, f64::min);
     let bottom = if depth > 0.0 { -depth } else { grained(lowest) };
     let origin = axis.unwrap_or_default().map(grained).extend(bottom);
@@ -58,7 +62,7 @@ pub(crate) fn pillar(
     let mut parts = Vec::new();
     let mut feet = Vec::new();
     for s in members() {
-        let carved = Boolean::new(&moved(standing[s].mesh(), -flat.extend(0.0)))?;
+        let carved = Boolean::new(&moved(&standing[s], -flat.extend(0.0)))?;
         let foot = Foot::new(&supports[s], flat, depth);
         parts.push(match &foot {
             Some(foot) if depth > 0.0 => foot.pegged(&carved)?,

@@ -19,7 +19,7 @@ const LIMITS: PrintLimits = PrintLimits {
 
 fn checks(mesh: TriMesh, supports: &[Support], bodies: &[(String, DVec3)]) -> Vec<PrintCheck> {
     let whole = Solid::new(mesh).unwrap();
-    let standing: Vec<Solid> = supports.iter().map(|_| whole.clone()).collect();
+    let standing: Vec<TriMesh> = supports.iter().map(|_| whole.mesh().clone()).collect();
     let bvh = Bvh::new(whole.mesh());
     let printed = Printed {
         supports,

@@ -509,7 +509,7 @@ fn apart() -> Forest {
         bare: whole.clone(),
         reliefs: vec![None],
         given_up: vec![[1, 2, 3].map(CellId).to_vec()],
-        standing: vec![whole.clone()],
+        standing: vec![whole.mesh().clone()],
         repairs: Repairs {
             filled: 7,
             dropped_cells: 3,

@@ -7,7 +7,7 @@ use manifold_rust::manifold::Manifold;
 use pillarforest::diagram::layout;
 use pillarforest::geom::{contains, polygon_area};
 use pillarforest::index::FaceId;
-use pillarforest::mesh::{Solid, TriMesh};
+use pillarforest::mesh::TriMesh;
 use pillarforest::split::{Lettering, Piece, PlateNumber, Split, SplitError, SplitOptions, split};
 use pillarforest::support::{Datum, Support, SupportKind};
 
@@ -54,13 +54,12 @@ fn sunk(x: f64, y: f64, radius: f64, corners: usize) -> Support {
     support
 }
 
-fn solids(supports: &[Support]) -> Vec<Solid> {
-    let solid = |s: &Support| Solid::new(s.mesh.clone()).unwrap();
-    supports.iter().map(solid).collect()
+fn meshes(supports: &[Support]) -> Vec<TriMesh> {
+    supports.iter().map(|s| s.mesh.clone()).collect()
 }
 
 fn divided(supports: &[Support]) -> Split {
-    split(supports, &solids(supports), &OPTIONS).unwrap()
+    split(supports, &meshes(supports), &OPTIONS).unwrap()
 }
 
 /// A grove of two sizes on a base larger than the bed.
@@ -116,7 +115,7 @@ fn plates_of_a_bare_base_add_up_to_it() {
     let bare = |bed| {
         let supports = [base(rectangle(150.0, 60.0), THICKNESS)];
         let options = SplitOptions { bed, ..OPTIONS };
-        split(&supports, &solids(&supports), &options).unwrap()
+        split(&supports, &meshes(&supports), &options).unwrap()
     };
     let whole = 150.0 * 60.0 * THICKNESS;
     let one = bare([200.0, 100.0, 100.0]);
@@ -289,7 +288,7 @@ fn pillars_whose_reliefs_meet_are_one_piece() {
         sunk(30.0, 0.0, 4.0, 64),
         base(rectangle(90.0, 40.0), THICKNESS),
     ];
-    let mut standing = solids(&supports);
+    let mut standing = meshes(&supports);
     for (k, x) in [(0, -10.0), (1, -2.0)] {
         let pillar = manifold(&supports[k].mesh);
         let arm = manifold(&boxes(&[(
@@ -303,7 +302,7 @@ fn pillars_whose_reliefs_meet_are_one_piece() {
                 .collect(),
             (0..mesh.num_tri()).map(|t| mesh.get_tri_verts(t).map(|v| v as u32)),
         );
-        standing[k] = Solid::new(mesh).unwrap();
+        standing[k] = mesh;
     }
     let split = split(&supports, &standing, &OPTIONS).unwrap();
     let names: Vec<&str> = pillars(&split).map(|p| p.name.as_str()).collect();
@@ -336,7 +335,7 @@ fn without_a_base_there_are_pillars_only_and_a_thin_one_is_refused() {
             bed: [bed; 3],
             ..OPTIONS
         };
-        split(&supports, &solids(&supports), &options).unwrap_err()
+        split(&supports, &meshes(&supports), &options).unwrap_err()
     };
     assert_eq!(refused(1.5, 100.0), SplitError::ThinBase(1.5));
     assert_eq!(refused(5.0, 12.0), SplitError::SmallBed);

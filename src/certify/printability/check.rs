@@ -1,7 +1,7 @@
 //! What is asked of a print: questions, their answers, and what they are asked about.
 
 use crate::bvh::Bvh;
-use crate::mesh::Solid;
+use crate::mesh::{Solid, TriMesh};
 use crate::support::Support;
 use glam::DVec3;
 
@@ -89,8 +89,8 @@ pub struct Printed<'a> {
     pub supports: &'a [Support],
     pub whole: &'a Solid,
     pub bvh: &'a Bvh,
-    /// Every support with its reliefs.
-    pub standing: &'a [Solid],
+    /// Every support with its reliefs, closed.
+    pub standing: &'a [TriMesh],
     /// Bodies that go on the bed one by one, as name and size; empty: the forest as one.
     pub bodies: &'a [(String, DVec3)],
 }

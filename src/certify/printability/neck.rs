@@ -25,16 +25,12 @@ pub(crate) fn core(printed: &Printed) -> Option<PrintCheck> {
         .supports
         .par_iter()
         .zip(printed.standing)
-        .filter_map(|(support, solid)| {
+        .filter_map(|(support, mesh)| {
             let SupportKind::Pillar { bottom, top, .. } = support.kind else {
                 return None;
             };
             let wanted = support.layer?.core;
-            Some((
-                support,
-                thinnest(solid.mesh(), bottom.max(0.0), top)?,
-                wanted,
-            ))
+            Some((support, thinnest(mesh, bottom.max(0.0), top)?, wanted))
         })
         .collect();
     let (support, neck, wanted) = found
