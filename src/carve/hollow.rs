@@ -2,10 +2,11 @@
 
 use super::boolean::{Boolean, BooleanError};
 use crate::index::{CellId, PointId, SupportId};
+use crate::mesh::TriMesh;
 use crate::relief::block;
 use crate::support::Slab;
 use crate::viewmap::ViewMap;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -20,24 +21,28 @@ const RIM_OVERLAP_MM: f64 = 0.05;
 const RIM_MM: f64 = 0.4;
 /// How far the carving starts in front of support and layer, millimetres.
 const CLEAR_MM: f64 = 1.0;
+/// What would be left standing beside the carving and is thinner than this goes too, millimetres: a printed line.
+const FIN_MM: f64 = 0.4;
 /// The finished shape is drawn in by this much, millimetres: parts that touch in a point come apart, as solids must.
 const PART_MM: f64 = 0.003;
 
 /// Closed rings in the image, millimetres at the support; outer ones counter-clockwise, holes clockwise.
 pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 
-/// The solid to take out of `support` in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
+/// The solid to take out of `support`, a mesh, in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
 pub(crate) fn hollow(
     map: &ViewMap,
     slab: &Slab,
-    support: SupportId,
+    (support, mesh): (SupportId, &TriMesh),
     cells: &[CellId],
     bed: f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
-    let rings = shape(map, slab, support, cells, [bed, scale]);
+    let carved = shape(map, slab, support, cells, [bed, scale]);
+    let near = offset(&outlines(map, cells, scale), RIM_MM + FIN_MM);
+    let rings = without_fins(&carved, &outline(map, mesh, scale), &near);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
-    frustum(map, slab, &rings, scale, floor)
+    frustum(map, slab, &offset(&rings, -PART_MM), scale, floor)
 }
 
 /// The same in front of a shell, which is not flat: down to `floor(cell, q)`.
@@ -64,7 +69,8 @@ pub(crate) fn shell_hollow(
         .filter(|c| behind.dropped.binary_search(c).is_err())
         .collect();
     let rings = shape(map, slab, support, &kept, [bed, scale]);
-    frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&Boolean::new(&behind.mesh)?)
+    frustum(map, slab, &offset(&rings, -PART_MM), scale, beyond(1.0))?
+        .minus(&Boolean::new(&behind.mesh)?)
 }
 
 /// The frustum of rays through rings, from in front of everything to `floor` millimetres behind the datum plane.
@@ -109,8 +115,36 @@ fn shape(
         OverlayRule::Difference,
         FillRule::NonZero,
     );
-    let shape = offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero);
-    offset(&flat(shape), -PART_MM)
+    flat(offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
+}
+
+/// The carving with all that it would leave of a support's `outline` in slivers: where a nearer support hides just as much of it as the
+/// carving is wider, or the relief ends just beside it, films would stand there that nobody can print or see. Only `near` the relief.
+fn without_fins(carved: &Rings, outline: &Rings, near: &Rings) -> Rings {
+    let taken = |from: &Rings, what: &Rings| {
+        flat(from.overlay(what, OverlayRule::Difference, FillRule::NonZero))
+    };
+    // What stands beside the finished shape.
+    let standing = taken(outline, &offset(carved, -PART_MM));
+    let stout = widened(&offset(&standing, -FIN_MM / 2.0), FIN_MM / 2.0 + PART_MM);
+    let fins = taken(&standing, &stout);
+    let fins = flat(fins.overlay(near, OverlayRule::Intersect, FillRule::NonZero));
+    // So that nothing is left between a fin and the carving, nor outside of it.
+    let fins = offset(&fins, RIM_OVERLAP_MM);
+    flat(carved.overlay(&fins, OverlayRule::Union, FillRule::NonZero))
+}
+
+/// What the eye would see of a mesh if nothing stood before it.
+fn outline(map: &ViewMap, mesh: &TriMesh, scale: f64) -> Rings {
+    let project = |v: &DVec3| map.plane.project(*v).map(|q| scale * q);
+    let image: Vec<Option<DVec2>> = mesh.vertices.iter().map(project).collect();
+    let seen = mesh.faces.iter().filter_map(|face| {
+        let [Some(a), Some(b), Some(c)] = face.map(|v| image[v]) else {
+            return None;
+        };
+        ((b - a).perp_dot(c - a) > 0.0).then(|| [a, b, c].map(|p| p.to_array()).to_vec())
+    });
+    simple(seen.collect())
 }
 
 /// The boundary of a set of cells (rising) as closed rings.

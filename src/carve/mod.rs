@@ -10,7 +10,8 @@
 //!
 //! Operands never share a wall. The carving reaches deeper than any relief, to half-way inside the relief's solid backing, and
 //! is a hair narrower than the relief where the support goes on beside it (so the relief's edge is bedded in the support) but
-//! wider where the support ends or is hidden (so no fin of it is left standing there).
+//! wider where the support ends or is hidden. What of the support would be left standing beside it in less than a printed line goes
+//! too: films between the carving and the support's own sides are what booleans and rounding fail on, and nobody can print them.
 
 pub(crate) mod boolean;
 mod brace;

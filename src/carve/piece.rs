@@ -88,7 +88,8 @@ impl<'a> ReliefOnSupport<'a> {
             let floor = |c: CellId, q: DVec2| self.shell(c, q, FLOOR);
             hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
         } else {
-            hollow::hollow(map, slab, self.support, cells, bed)
+            let mesh = &self.image.field.supports[self.support].mesh;
+            hollow::hollow(map, slab, (self.support, mesh), cells, bed)
         }
     }
 
