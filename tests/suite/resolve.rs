@@ -240,7 +240,11 @@ fn winding(mesh: &TriMesh, p: DVec3) -> i32 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    // One heap in 30,000 may be refused, so one of these, but no two.
+    #![proptest_config(ProptestConfig {
+        max_global_rejects: 1,
+        ..ProptestConfig::with_cases(60)
+    })]
 
     #[test]
     fn heaps_of_boxes_enclose_what_they_enclosed(
@@ -249,7 +253,11 @@ proptest! {
     ) {
         let mut mesh = TriMesh::default();
         heap.iter().for_each(|b| mesh.append(b));
-        let (solid, made) = solid(&mesh);
+        let Ok(made) = resolved(&mesh) else {
+            return Err(TestCaseError::reject("refused"));
+        };
+        let solid = Solid::new(made.mesh().clone());
+        let solid = solid.map_err(|d| TestCaseError::fail(format!("{d:?}")))?;
         prop_assert!(made.took.moved_mm <= MOST_MOVED_MM, "{}", made.took.moved_mm);
         // Away from the surface, where what gluing moves decides nothing.
         let near = |p: DVec3| {
