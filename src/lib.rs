@@ -71,6 +71,7 @@
 //! | relief | the optimised surface cut and scaled back onto its supports |
 //! | block | a relief as a solid, with its backing |
 //! | hollow | what is carved out of a support before a relief |
+//! | fin | what of a support would be left standing beside a hollow in less than a printed line |
 //! | bed, lap | how far a relief is sunk in its support's edge, and goes on behind a nearer support |
 //! | brace | a tie between a part that would float and its support |
 //! | spare | of a corner: the surface is the same without it, within a tolerance |

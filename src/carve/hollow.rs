@@ -38,11 +38,12 @@ pub(crate) fn hollow(
     bed: f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
-    let carved = shape(map, slab, support, cells, [bed, scale]);
-    let near = offset(&outlines(map, cells, scale), RIM_MM + FIN_MM);
+    let relief = simple(outlines(map, cells, scale));
+    let carved = shape(map, slab, support, &relief, [bed, scale]);
+    let near = offset(&relief, RIM_MM + FIN_MM);
     let rings = without_fins(&carved, &outline(map, mesh, scale), &near);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
-    frustum(map, slab, &offset(&rings, -PART_MM), scale, floor)
+    frustum(map, slab, &rings, scale, floor)
 }
 
 /// The same in front of a shell, which is not flat: down to `floor(cell, q)`.
@@ -68,12 +69,12 @@ pub(crate) fn shell_hollow(
         .copied()
         .filter(|c| behind.dropped.binary_search(c).is_err())
         .collect();
-    let rings = shape(map, slab, support, &kept, [bed, scale]);
-    frustum(map, slab, &offset(&rings, -PART_MM), scale, beyond(1.0))?
-        .minus(&Boolean::new(&behind.mesh)?)
+    let relief = simple(outlines(map, &kept, scale));
+    let rings = shape(map, slab, support, &relief, [bed, scale]);
+    frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&Boolean::new(&behind.mesh)?)
 }
 
-/// The frustum of rays through rings, from in front of everything to `floor` millimetres behind the datum plane.
+/// The frustum of rays through rings drawn in by [`PART_MM`], from in front of everything to `floor` millimetres behind the datum plane.
 fn frustum(
     map: &ViewMap,
     slab: &Slab,
@@ -82,7 +83,7 @@ fn frustum(
     floor: f64,
 ) -> Result<Boolean, BooleanError> {
     // The prism's bottom becomes the far end: (right, up, towards the eye) is right-handed.
-    Boolean::prism(rings, |p, height| {
+    Boolean::prism(&offset(rings, -PART_MM), |p, height| {
         let q = p / scale;
         let offset = if height < 0.5 {
             floor
@@ -100,7 +101,7 @@ fn shape(
     map: &ViewMap,
     slab: &Slab,
     support: SupportId,
-    cells: &[CellId],
+    relief: &Rings,
     [bed, scale]: [f64; 2],
 ) -> Rings {
     let goes_on = |c: &CellId| match map.cells[*c].support {
@@ -108,14 +109,13 @@ fn shape(
         None => false,
     };
     let seen: Vec<CellId> = CellId::all(map.cells.len()).filter(goes_on).collect();
-    let relief = simple(outlines(map, cells, scale));
     let seen = simple(outlines(map, &seen, scale));
-    let rim = offset(&relief, RIM_MM).overlay(
+    let rim = offset(relief, RIM_MM).overlay(
         &offset(&seen, -RIM_OVERLAP_MM),
         OverlayRule::Difference,
         FillRule::NonZero,
     );
-    flat(offset(&relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
+    flat(offset(relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
 }
 
 /// The carving with all that it would leave of a support's `outline` in slivers: where a nearer support hides just as much of it as the

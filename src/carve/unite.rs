@@ -91,10 +91,9 @@ fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)
 fn gathered(parts: &[&TriMesh]) -> Vec<TriMesh> {
     let mut gathered: Vec<(TriMesh, Vec<Box3>)> = Vec::new();
     for part in parts {
-        let Some((lo, hi)) = part.bounds() else {
+        let Some(own) = Box3::of(part) else {
             continue;
         };
-        let own = Box3 { lo, hi };
         let is_apart = |boxes: &[Box3]| boxes.iter().all(|b| !b.overlaps(&own));
         match gathered.iter_mut().find(|(_, boxes)| is_apart(boxes)) {
             Some((mesh, boxes)) => {

@@ -15,6 +15,11 @@ pub struct Box3 {
 }
 
 impl Box3 {
+    /// Of a whole mesh; `None` without vertices.
+    pub fn of(mesh: &TriMesh) -> Option<Self> {
+        mesh.bounds().map(|(lo, hi)| Self { lo, hi })
+    }
+
     pub fn of_face(mesh: &TriMesh, face: FaceId) -> Self {
         let [a, b, c] = mesh.corners(face);
         Self {

@@ -177,47 +177,49 @@ impl Star {
     fn change(&self, w: VertexId, left: f64) -> Option<f64> {
         let to = self.spokes.iter().find(|s| s.ids[1] == w)?;
         let kept = || self.spokes.iter().filter(|s| !s.ids.contains(&w));
-        for spoke in kept() {
-            let old = spoke.corners;
-            let new = [to.corners[1], old[1], old[2]];
-            if area_vector(old).dot(area_vector(new)) <= 0.0 {
-                return None;
-            }
-            let turned = unit_normal(new, self.tolerance);
-            let is_like = |n: DVec3| n.dot(turned) > TURN;
-            // A sliver has no normal worth keeping: what it becomes must look like some face there.
-            let fits = turned == DVec3::ZERO
-                || match spoke.normal {
-                    DVec3::ZERO => self.spokes.iter().any(|s| is_like(s.normal)),
-                    own => is_like(own),
-                };
-            if !fits {
-                return None;
-            }
-        }
-        // Before and after the surface is a height over each place seen. Their difference is linear between crossings of its edges, so
-        // it is largest at one of them or at the corner.
-        let to = to.seen[0];
+        kept()
+            .all(|s| self.stays_turned(s, to.corners[1]))
+            .then(|| self.rise(kept(), to.seen[0], left))?
+    }
+
+    /// Whether a face looks where it did when the corner goes to `to`.
+    fn stays_turned(&self, spoke: &Spoke, to: DVec3) -> bool {
+        let old = spoke.corners;
+        let new = [to, old[1], old[2]];
+        let turned = unit_normal(new, self.tolerance);
+        let is_like = |n: DVec3| n.dot(turned) > TURN;
+        // A sliver has no normal worth keeping: what it becomes must look like some face there.
+        let fits = || match (turned, spoke.normal) {
+            (DVec3::ZERO, _) => true,
+            (_, DVec3::ZERO) => self.spokes.iter().any(|s| is_like(s.normal)),
+            (_, own) => is_like(own),
+        };
+        area_vector(old).dot(area_vector(new)) > 0.0 && fits()
+    }
+
+    /// How far the surface rises or falls when the faces that are `kept` have their corner at `to`; `None` if by more than `left`.
+    ///
+    /// Before and after it is a height over each place seen. Their difference is linear between crossings of its edges, so it is largest
+    /// at one of them or at the corner.
+    fn rise<'a>(&self, kept: impl Iterator<Item = &'a Spoke>, to: Seen, left: f64) -> Option<f64> {
         let mut worst = 0.0f64;
+        // The face under the corner, by its least share of it: rounding may leave that outside of all faces.
         let mut under = (f64::NEG_INFINITY, 0.0);
-        for spoke in kept() {
+        for spoke in kept {
             let [a, b] = spoke.seen;
             let shares = [(a.at, b.at), (b.at, to.at), (to.at, a.at)].map(|(p, q)| p.perp_dot(q));
             let whole: f64 = shares.iter().sum();
             if whole > 0.0 {
                 let [s, t, u] = shares.map(|s| s / whole);
-                let height = s * to.height + t * a.height + u * b.height;
-                // Rounding may leave the corner outside of all faces.
-                under = if s.min(t).min(u) > under.0 {
-                    (s.min(t).min(u), height)
-                } else {
-                    under
-                };
+                let least = s.min(t).min(u);
+                if least > under.0 {
+                    under = (least, s * to.height + t * a.height + u * b.height);
+                }
             } else if spoke.normal != DVec3::ZERO {
                 return None;
             }
             for other in &self.spokes {
-                worst = worst.max(rise(other.seen[0], [to, a]).unwrap_or(0.0));
+                worst = worst.max(rise_at_crossing(other.seen[0], [to, a]).unwrap_or(0.0));
                 if worst > left {
                     return None;
                 }
@@ -229,7 +231,7 @@ impl Star {
 }
 
 /// How far the way from the corner to `end` lies above or below the edge that it crosses, if it does.
-fn rise(end: Seen, [p, q]: [Seen; 2]) -> Option<f64> {
+fn rise_at_crossing(end: Seen, [p, q]: [Seen; 2]) -> Option<f64> {
     let (from, to) = (end.at.perp_dot(p.at), end.at.perp_dot(q.at));
     let across = q.at - p.at;
     let (here, there) = (across.perp_dot(-p.at), across.perp_dot(end.at - p.at));

