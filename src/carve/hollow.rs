@@ -1,8 +1,9 @@
 //! The carving in front of a relief: a frustum of the eye's rays. The only module that names `i_overlay`.
 
 use super::boolean::{Boolean, BooleanError};
+use super::sound::SPARE_MM;
 use crate::index::{CellId, PointId, SupportId};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, without_spare_corners};
 use crate::relief::block;
 use crate::support::Slab;
 use crate::viewmap::ViewMap;
@@ -17,42 +18,49 @@ use std::collections::BTreeMap;
 
 /// Overlap of the carving's wider rim with the carving itself, millimetres: more than any bed width, or a fin is left between.
 const RIM_OVERLAP_MM: f64 = 0.05;
-/// How far the carving goes beyond the support's outline, millimetres: the gap to what a nearer support hides must print.
-const RIM_MM: f64 = 0.4;
 /// How far the carving starts in front of support and layer, millimetres.
 const CLEAR_MM: f64 = 1.0;
-/// What would be left standing beside the carving and is thinner than this goes too, millimetres: a printed line.
-const FIN_MM: f64 = 0.4;
 /// The finished shape is drawn in by this much, millimetres: parts that touch in a point come apart, as solids must.
 const PART_MM: f64 = 0.003;
+
+/// How a carving ends, millimetres at the support.
+#[derive(Clone, Copy)]
+pub(crate) struct CarvingEdge {
+    /// Narrower than the relief by this where the support goes on beside it.
+    pub bed: f64,
+    /// Wider by this, a printed line, where the support ends or is hidden: the gap to what a nearer support hides must print. What would
+    /// be left standing beside the carving and is thinner than that goes too.
+    pub line: f64,
+}
 
 /// Closed rings in the image, millimetres at the support; outer ones counter-clockwise, holes clockwise.
 pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 
-/// The solid to take out of `support`, a mesh, in front of its relief on `cells` (rising), `bed` millimetres narrower than the relief.
+/// The solid to take out of `support`, a mesh, in front of its relief on `cells` (rising).
 pub(crate) fn hollow(
     map: &ViewMap,
     slab: &Slab,
     (support, mesh): (SupportId, &TriMesh),
     cells: &[CellId],
-    bed: f64,
+    edge: CarvingEdge,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
     let relief = simple(outlines(map, cells, scale));
-    let carved = shape(map, slab, support, &relief, [bed, scale]);
-    let near = offset(&relief, RIM_MM + FIN_MM);
-    let rings = without_fins(&carved, &outline(map, mesh, scale), &near);
+    let carved = shape(map, slab, support, &relief, edge, scale);
+    let near = offset(&relief, 2.0 * edge.line);
+    let rings = without_fins(&carved, &outline(map, mesh, scale), &near, edge.line);
     let floor = (slab.backing() + slab.deepest()) / 2.0;
     frustum(map, slab, &rings, scale, floor)
 }
 
-/// The same in front of a shell, which is not flat: down to `floor(cell, q)`.
+/// The same in front of a shell, which is not flat: down to `floor(cell, q)`. What would be left beside it is not looked for: taking that
+/// away too made the films of a vase no fewer.
 pub(crate) fn shell_hollow(
     map: &ViewMap,
     slab: &Slab,
     support: SupportId,
     cells: &[CellId],
-    bed: f64,
+    edge: CarvingEdge,
     floor: impl Fn(CellId, DVec2) -> f64,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
@@ -70,8 +78,9 @@ pub(crate) fn shell_hollow(
         .filter(|c| behind.dropped.binary_search(c).is_err())
         .collect();
     let relief = simple(outlines(map, &kept, scale));
-    let rings = shape(map, slab, support, &relief, [bed, scale]);
-    frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&Boolean::new(&behind.mesh)?)
+    let rings = shape(map, slab, support, &relief, edge, scale);
+    let behind = Boolean::new(&without_spare_corners(behind.mesh, SPARE_MM))?;
+    frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&behind)
 }
 
 /// The frustum of rays through rings drawn in by [`PART_MM`], from in front of everything to `floor` millimetres behind the datum plane.
@@ -102,7 +111,8 @@ fn shape(
     slab: &Slab,
     support: SupportId,
     relief: &Rings,
-    [bed, scale]: [f64; 2],
+    edge: CarvingEdge,
+    scale: f64,
 ) -> Rings {
     let goes_on = |c: &CellId| match map.cells[*c].support {
         Some(found) => found == support || slab.is_shell(),
@@ -110,28 +120,26 @@ fn shape(
     };
     let seen: Vec<CellId> = CellId::all(map.cells.len()).filter(goes_on).collect();
     let seen = simple(outlines(map, &seen, scale));
-    let rim = offset(relief, RIM_MM).overlay(
-        &offset(&seen, -RIM_OVERLAP_MM),
-        OverlayRule::Difference,
-        FillRule::NonZero,
-    );
-    flat(offset(relief, -bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
+    let rim = taken(&offset(relief, edge.line), &offset(&seen, -RIM_OVERLAP_MM));
+    flat(offset(relief, -edge.bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
 }
 
-/// The carving with all that it would leave of a support's `outline` in slivers: where a nearer support hides just as much of it as the
-/// carving is wider, or the relief ends just beside it, films would stand there that nobody can print or see. Only `near` the relief.
-fn without_fins(carved: &Rings, outline: &Rings, near: &Rings) -> Rings {
-    let taken = |from: &Rings, what: &Rings| {
-        flat(from.overlay(what, OverlayRule::Difference, FillRule::NonZero))
-    };
+/// The carving with all that it would leave of a support's `outline` in slivers, thinner than a `line`: where a nearer support hides just
+/// as much of it as the carving is wider, or the relief ends just beside it, films would stand there that nobody can print or see. Only
+/// `near` the relief.
+fn without_fins(carved: &Rings, outline: &Rings, near: &Rings, line: f64) -> Rings {
     // What stands beside the finished shape.
     let standing = taken(outline, &offset(carved, -PART_MM));
-    let stout = widened(&offset(&standing, -FIN_MM / 2.0), FIN_MM / 2.0 + PART_MM);
+    let stout = widened(&offset(&standing, -line / 2.0), line / 2.0 + PART_MM);
     let fins = taken(&standing, &stout);
     let fins = flat(fins.overlay(near, OverlayRule::Intersect, FillRule::NonZero));
     // So that nothing is left between a fin and the carving, nor outside of it.
     let fins = offset(&fins, RIM_OVERLAP_MM);
     flat(carved.overlay(&fins, OverlayRule::Union, FillRule::NonZero))
+}
+
+fn taken(from: &Rings, what: &Rings) -> Rings {
+    flat(from.overlay(what, OverlayRule::Difference, FillRule::NonZero))
 }
 
 /// What the eye would see of a mesh if nothing stood before it.

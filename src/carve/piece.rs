@@ -2,7 +2,7 @@
 
 use super::boolean::{Boolean, BooleanError};
 use super::forest::Repairs;
-use super::hollow;
+use super::hollow::{self, CarvingEdge};
 use super::sound::SPARE_MM;
 use crate::index::{CellId, SupportId};
 use crate::mesh::{DisjointSets, without_spare_corners};
@@ -82,14 +82,15 @@ impl<'a> ReliefOnSupport<'a> {
         })
     }
 
-    pub(crate) fn hollow(&self, bed: f64) -> Result<Boolean, BooleanError> {
+    /// What is carved out before the relief.
+    pub(crate) fn hollow(&self, edge: CarvingEdge) -> Result<Boolean, BooleanError> {
         let (map, slab, cells) = (&self.image.map, &self.slab, &self.cells);
         if slab.is_shell() {
             let floor = |c: CellId, q: DVec2| self.shell(c, q, FLOOR);
-            hollow::shell_hollow(map, slab, self.support, cells, bed, floor)
+            hollow::shell_hollow(map, slab, self.support, cells, edge, floor)
         } else {
             let mesh = &self.image.field.supports[self.support].mesh;
-            hollow::hollow(map, slab, (self.support, mesh), cells, bed)
+            hollow::hollow(map, slab, (self.support, mesh), cells, edge)
         }
     }
 

@@ -3,11 +3,12 @@
 use super::boolean::{Boolean, BooleanError};
 use super::brace::braces;
 use super::forest::{CarveError, Repairs};
+use super::hollow::CarvingEdge;
 use super::operand::Operand;
 use super::piece::ReliefOnSupport;
 use super::sound::{CRUMB_MM3, spared};
 use crate::index::{CellId, SupportId, ViewId};
-use crate::mesh::{TriMesh, resolved, without_cavities};
+use crate::mesh::{TriMesh, resolved};
 use crate::support::{Slab, Support};
 use crate::viewmap::SupportField;
 
@@ -27,7 +28,7 @@ pub(crate) struct Carved {
     pub repairs: Repairs,
 }
 
-/// Carves one support.
+/// Carves one support; `line` is the width of a printed line, millimetres.
 ///
 /// # Errors
 /// If the boolean library refuses an operand, or the result does not become a solid.
@@ -35,6 +36,7 @@ pub(crate) fn carve_support(
     field: &SupportField,
     s: SupportId,
     views: &[Operand],
+    line: f64,
 ) -> Result<Carved, CarveError> {
     let support = &field.supports[s];
     let failed = |source| CarveError::Boolean {
@@ -43,6 +45,7 @@ pub(crate) fn carve_support(
     };
     let mut work = SupportWork {
         support,
+        edge: CarvingEdge { bed: BED_MM, line },
         bare: Boolean::new(&support.mesh).map_err(failed)?,
         blocks: Vec::new(),
         given_up: Vec::new(),
@@ -71,11 +74,14 @@ struct OnSupport {
     /// Of a relief.
     slab: Option<Slab>,
     solid: Boolean,
+    /// Whether it may have spare corners.
+    is_rough: bool,
 }
 
 /// A support on its way to solids.
 struct SupportWork<'a> {
     support: &'a Support,
+    edge: CarvingEdge,
     bare: Boolean,
     blocks: Vec<OnSupport>,
     given_up: Vec<(ViewId, Vec<CellId>)>,
@@ -88,12 +94,13 @@ impl SupportWork<'_> {
         let made = piece.relief(LAP_MM, &mut self.repairs)?;
         self.given_up.push((view, made.dropped));
         if piece.slab.is_carved() {
-            self.bare = self.bare.minus(&piece.hollow(BED_MM)?)?;
+            self.bare = self.bare.minus(&piece.hollow(self.edge)?)?;
         }
         self.blocks.push(OnSupport {
             view,
             slab: Some(piece.slab),
             solid: made.solid,
+            is_rough: false,
         });
         Ok(())
     }
@@ -106,7 +113,7 @@ impl SupportWork<'_> {
             source,
         })?;
         self.repairs.resolving.add(&made.took);
-        let solid = Boolean::new(&without_cavities(made.into_mesh()));
+        let solid = Boolean::new(&made.without_cavities());
         self.blocks.push(OnSupport {
             view,
             slab: None,
@@ -114,6 +121,7 @@ impl SupportWork<'_> {
                 place: place(),
                 source,
             })?,
+            is_rough: true,
         });
         Ok(())
     }
@@ -130,6 +138,7 @@ impl SupportWork<'_> {
             self.repairs.braces += braces.len();
             for brace in &braces {
                 block.solid = block.solid.plus(brace)?;
+                block.is_rough = true;
             }
             whole = if braces.is_empty() {
                 joined
@@ -153,11 +162,15 @@ impl SupportWork<'_> {
     }
 
     fn carved(self, whole: &Boolean) -> Carved {
-        let blocks = self.blocks.into_iter().filter(|b| !b.solid.is_empty());
+        let blocks = self.blocks.iter().filter(|b| !b.solid.is_empty());
+        let of_block = |b: &OnSupport| match b.is_rough {
+            true => spared(&b.solid),
+            false => b.solid.mesh(),
+        };
         Carved {
             whole: spared(whole),
             bare: spared(&self.bare),
-            blocks: blocks.map(|b| (b.view, spared(&b.solid))).collect(),
+            blocks: blocks.map(|b| (b.view, of_block(b))).collect(),
             given_up: self.given_up,
             repairs: self.repairs,
         }

@@ -3,22 +3,23 @@
 use super::boolean::{Boolean, BooleanError};
 use super::forest::{CarveError, Forest, Repairs};
 use super::operand::Operand;
-use super::sound::{sound, sound_mesh};
+use super::sound::{SPARE_MM, sound_mesh};
 use super::support::{Carved, carve_support};
 use crate::index::{SupportId, ViewId};
-use crate::mesh::boxes::Box3;
-use crate::mesh::{Resolving, Solid, TriMesh};
+use crate::mesh::boxes::{Box3, BoxTree};
+use crate::mesh::{Resolving, Solid, TriMesh, without_spare_corners_where};
 use crate::viewmap::SupportField;
+use glam::DVec3;
 use rayon::prelude::*;
 
-/// Carves and unites everything.
+/// Carves and unites everything; `line` is the width of a printed line, millimetres.
 ///
 /// # Errors
 /// If the boolean library refuses an operand or a result does not become a solid, with its name.
-pub fn carve(field: &SupportField, views: &[Operand]) -> Result<Forest, CarveError> {
+pub fn carve(field: &SupportField, views: &[Operand], line: f64) -> Result<Forest, CarveError> {
     let carved: Vec<Carved> = (0..field.supports.len() as u32)
         .into_par_iter()
-        .map(|s| carve_support(field, SupportId(s), views))
+        .map(|s| carve_support(field, SupportId(s), views, line))
         .collect::<Result<_, _>>()?;
     let names: Vec<&str> = views.iter().map(Operand::name).collect();
     unite(carved, &names)
@@ -73,6 +74,7 @@ fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
 /// What is read by the library is read here, in order: it numbers meshes as they come, those of different supports in the order of
 /// threads, and its results depend on that.
 fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
+    let overlaps = overlaps(&parts);
     let mut gathered = gathered(&parts);
     if gathered.len() < 2 {
         let only = gathered.pop();
@@ -84,7 +86,30 @@ fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)
         place: place.into(),
         source,
     })?;
-    sound(&whole, place).map(Some)
+    // The parts are without spare corners, and where they are apart they stay as they were.
+    let is_new = |p: DVec3| {
+        let mut found = false;
+        overlaps.overlapping(&Box3 { lo: p, hi: p }, |_| {
+            found = true;
+            false
+        });
+        found
+    };
+    sound_mesh(
+        &without_spare_corners_where(whole.mesh(), SPARE_MM, is_new),
+        place,
+    )
+    .map(Some)
+}
+
+/// Where the boxes of two parts overlap.
+fn overlaps(parts: &[&TriMesh]) -> BoxTree {
+    let boxes: Vec<Box3> = parts.iter().filter_map(|p| Box3::of(p)).collect();
+    let mut common = Vec::new();
+    for (i, a) in boxes.iter().enumerate() {
+        common.extend(boxes[..i].iter().filter_map(|b| a.common(b)));
+    }
+    BoxTree::new(&common)
 }
 
 /// Some parts as fewer: those whose boxes are apart need no boolean.

@@ -50,7 +50,7 @@ pub(crate) fn built<'a>(
     progress("quadratic programs", 0.15);
     let shapes = all(sights.par_iter().map(|s| optimise(s, scene)))?;
     progress("solids", 0.45);
-    let forest = solids(field, &shapes)?;
+    let forest = solids(field, &shapes, scene.printer.nozzle)?;
     Ok(Built {
         bvh: Bvh::new(forest.whole.mesh()),
         scene,
@@ -61,13 +61,14 @@ pub(crate) fn built<'a>(
     })
 }
 
-/// The forest of what every view puts on the supports.
+/// The forest of what every view puts on the supports; `line` is the width of a printed line, millimetres.
 fn solids(
     field: &SupportField,
     shapes: &[Box<dyn Optimised + '_>],
+    line: f64,
 ) -> Result<Forest, Vec<Diagnostic>> {
     let operands: Vec<Operand> = shapes.iter().map(|s| s.operand()).collect();
-    carve(field, &operands).map_err(|e| {
+    carve(field, &operands, line).map_err(|e| {
         let crossing = |(shape, operand): (&dyn Optimised, &Operand)| match operand {
             Operand::Mesh { .. } => shape.crossings().map_or(0, |c| c.self_intersections),
             Operand::Relief { .. } => 0,

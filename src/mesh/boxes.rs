@@ -38,6 +38,14 @@ impl Box3 {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
 
+    /// What two boxes have in common, if they meet.
+    pub fn common(&self, other: &Self) -> Option<Self> {
+        self.overlaps(other).then(|| Self {
+            lo: self.lo.max(other.lo),
+            hi: self.hi.min(other.hi),
+        })
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             lo: self.lo.min(other.lo),
@@ -80,17 +88,19 @@ pub struct BoxTree {
 
 impl BoxTree {
     pub fn new(boxes: &[Box3]) -> Self {
-        let centres: Vec<DVec3> = boxes.iter().map(|b| b.lo + b.hi).collect();
-        let mut order: Vec<BoxId> = BoxId::all(boxes.len()).collect();
-        let mut nodes = Vec::new();
+        let centred = |id: BoxId| Centred {
+            centre: boxes[id].lo + boxes[id].hi,
+            id,
+        };
+        let mut order: Vec<Centred> = BoxId::all(boxes.len()).map(centred).collect();
+        let mut nodes = Vec::with_capacity(boxes.len());
         if !boxes.is_empty() {
-            split(&mut order, 0, boxes, &centres, &mut nodes);
+            split(&mut order, 0, boxes, &mut nodes);
         }
-        let boxes = order.iter().map(|&i| boxes[i]).collect();
         Self {
             nodes,
-            order,
-            boxes,
+            boxes: order.iter().map(|c| boxes[c.id]).collect(),
+            order: order.into_iter().map(|c| c.id).collect(),
         }
     }
 
@@ -182,44 +192,46 @@ impl BoxTree {
     }
 }
 
-/// Adds the nodes of `order`, whose first item is item `offset` of the tree; halves at the median of the widest axis.
-fn split(
-    order: &mut [BoxId],
-    offset: usize,
-    boxes: &[Box3],
-    centres: &[DVec3],
-    nodes: &mut Vec<Node>,
-) {
-    let bounds = order
-        .iter()
-        .map(|&i| boxes[i])
-        .reduce(Box3::union)
-        .expect("split is called with at least one box");
-    let index = nodes.len();
-    let (first, count) = (offset as u32, order.len() as u32);
-    nodes.push(Node {
-        bounds,
-        first,
-        count,
-    });
-    if order.len() <= LEAF {
-        return;
-    }
-    let axis = centre_spread(order, centres).max_position();
-    let middle = order.len() / 2;
-    let key = |i: &BoxId| centres[*i][axis];
-    order.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-    let (left, right) = order.split_at_mut(middle);
-    split(left, offset, boxes, centres, nodes);
-    nodes[index].first = nodes.len() as u32;
-    nodes[index].count = 0;
-    split(right, offset + middle, boxes, centres, nodes);
+/// A box on its way to a leaf.
+struct Centred {
+    /// Twice the centre.
+    centre: DVec3,
+    id: BoxId,
 }
 
-fn centre_spread(order: &[BoxId], centres: &[DVec3]) -> DVec3 {
-    let first = centres[order[0]];
-    let (lo, hi) = order.iter().fold((first, first), |(lo, hi), &i| {
-        (lo.min(centres[i]), hi.max(centres[i]))
+/// Adds the nodes of `order`, whose first item is item `offset` of the tree, and gives the bounds; halves at the median of the widest
+/// axis.
+fn split(order: &mut [Centred], offset: usize, boxes: &[Box3], nodes: &mut Vec<Node>) -> Box3 {
+    let index = nodes.len();
+    nodes.push(Node {
+        bounds: boxes[order[0].id],
+        first: offset as u32,
+        count: order.len() as u32,
+    });
+    let bounds = if order.len() <= LEAF {
+        let all = order.iter().map(|c| boxes[c.id]);
+        all.fold(boxes[order[0].id], Box3::union)
+    } else {
+        let axis = centre_spread(order).max_position();
+        let middle = order.len() / 2;
+        order.select_nth_unstable_by(middle, |a, b| {
+            let by_centre = a.centre[axis].total_cmp(&b.centre[axis]);
+            by_centre.then(a.id.cmp(&b.id))
+        });
+        let (left, right) = order.split_at_mut(middle);
+        let left = split(left, offset, boxes, nodes);
+        nodes[index].first = nodes.len() as u32;
+        nodes[index].count = 0;
+        left.union(split(right, offset + middle, boxes, nodes))
+    };
+    nodes[index].bounds = bounds;
+    bounds
+}
+
+fn centre_spread(order: &[Centred]) -> DVec3 {
+    let first = order[0].centre;
+    let (lo, hi) = order.iter().fold((first, first), |(lo, hi), c| {
+        (lo.min(c.centre), hi.max(c.centre))
     });
     hi - lo
 }

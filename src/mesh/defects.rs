@@ -5,10 +5,11 @@
 //! one fan, no two faces in each other's way, material inside.
 
 use crate::index::{FaceId, VertexId};
-use crate::mesh::intersect::{projection_axis, self_intersections};
-use crate::mesh::shells::{Shell, shells};
+use crate::mesh::intersect::self_intersections;
+use crate::mesh::shells::{ClosedSurface, Shell, shells_of};
 use crate::mesh::topology::{Edges, HalfEdge, bowtie_vertices};
 use crate::mesh::tri_mesh::TriMesh;
+use crate::mesh::turns::projection_axis;
 use crate::mesh::weld::duplicate_groups;
 use glam::DVec3;
 use std::fmt;
@@ -166,26 +167,41 @@ const MAX_PAIRS: usize = 20_000;
 ///
 /// Intersections are looked for in any mesh with finite coordinates, the way shells lie only in otherwise sound ones.
 pub fn check(mesh: &TriMesh) -> Vec<Defect> {
-    check_with(mesh, || self_intersections(mesh, MAX_PAIRS))
-}
-
-/// The same, with the pairs of faces in each other's way given.
-pub(crate) fn check_with(mesh: &TriMesh, pairs: impl FnOnce() -> Vec<[FaceId; 2]>) -> Vec<Defect> {
     let fatal = unreadable(mesh);
     if !fatal.is_empty() {
         return fatal;
     }
     let edges = Edges::new(mesh);
+    let pairs = self_intersections(mesh, MAX_PAIRS);
+    found(mesh, &edges, &pairs, || shells_of(mesh, &edges))
+}
+
+/// The same of a surface whose faces are known to be in nobody's way.
+pub(crate) fn check_parted(surface: &ClosedSurface) -> Vec<Defect> {
+    let mesh = &surface.mesh;
+    let fatal = unreadable(mesh);
+    if !fatal.is_empty() {
+        return fatal;
+    }
+    found(mesh, &surface.edges, &[], || surface.shells.clone())
+}
+
+/// The defects of a mesh that can be read.
+fn found(
+    mesh: &TriMesh,
+    edges: &Edges,
+    pairs: &[[FaceId; 2]],
+    shells: impl FnOnce() -> Vec<Shell>,
+) -> Vec<Defect> {
     let mut defects = face_defects(mesh);
-    defects.extend(edge_defects(mesh, &edges));
-    let bowties = bowtie_vertices(mesh, &edges);
+    defects.extend(edge_defects(mesh, edges));
+    let bowties = bowtie_vertices(mesh, edges);
     push(
         &mut defects,
         DefectKind::BowtieVertex,
         bowties.len(),
         || mesh.vertices[bowties[0]],
     );
-    let pairs = pairs();
     push(
         &mut defects,
         DefectKind::SelfIntersection,
@@ -196,7 +212,7 @@ pub(crate) fn check_with(mesh: &TriMesh, pairs: impl FnOnce() -> Vec<[FaceId; 2]
         last.at_least = true;
     }
     if defects.is_empty() {
-        defects.extend(shell_defects(mesh));
+        defects.extend(shell_defects(mesh, &shells()));
     }
     defects.extend(unreferenced(mesh));
     defects
@@ -284,8 +300,7 @@ fn edge_defects(mesh: &TriMesh, edges: &Edges) -> Vec<Defect> {
 }
 
 /// The way the shells of a closed mesh lie.
-fn shell_defects(mesh: &TriMesh) -> Vec<Defect> {
-    let shells = shells(mesh);
+fn shell_defects(mesh: &TriMesh, shells: &[Shell]) -> Vec<Defect> {
     let volume: f64 = shells.iter().map(|s| s.volume).sum();
     let wrong: Vec<&Shell> = shells.iter().filter(|s| !s.is_sound()).collect();
     let mut defects = Vec::new();

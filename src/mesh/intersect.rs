@@ -7,10 +7,11 @@
 
 use crate::index::FaceId;
 use crate::mesh::boxes::{BoxTree, LeafId};
+use crate::mesh::fans::plain_fans;
 use crate::mesh::tri_mesh::TriMesh;
+use crate::mesh::turns::{projection_axis, turn2, turn3};
 use glam::DVec3;
 use rayon::prelude::*;
-use robust::{Coord, Coord3D};
 
 /// Leaves of up to four faces tested between two looks at the limit. Larger blocks cost seconds past the limit where all faces are in
 /// one place; smaller ones cost waiting at their ends.
@@ -23,12 +24,13 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
         .into_par_iter()
         .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))
         .collect();
+    let plain = plain_fans(mesh);
     let tree = BoxTree::of_faces(mesh);
     let mut pairs = Vec::new();
     for block in tree.leaves().chunks(BLOCK) {
         let found: Vec<Vec<[FaceId; 2]>> = block
             .par_iter()
-            .map(|leaf| pairs_of(mesh, &flat, &tree, *leaf, limit))
+            .map(|leaf| pairs_of(mesh, &flat, &plain, &tree, *leaf, limit))
             .collect();
         pairs.extend(found.into_iter().flatten());
         if pairs.len() >= limit {
@@ -43,6 +45,7 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
 fn pairs_of(
     mesh: &TriMesh,
     flat: &[Option<usize>],
+    plain: &[bool],
     tree: &BoxTree,
     leaf: LeafId,
     limit: usize,
@@ -50,7 +53,9 @@ fn pairs_of(
     let mut pairs = Vec::new();
     tree.meeting(leaf, |[a, b]| {
         let pair = [FaceId(a.0.min(b.0)), FaceId(a.0.max(b.0))];
-        if let [Some(axis_a), Some(axis_b)] = pair.map(|f| flat[f])
+        let [va, vb] = pair.map(|f| mesh.faces[f]);
+        if !va.iter().any(|v| plain[*v] && vb.contains(v))
+            && let [Some(axis_a), Some(axis_b)] = pair.map(|f| flat[f])
             && faces_intersect(mesh, pair, [axis_a, axis_b])
         {
             pairs.push(pair);
@@ -168,35 +173,4 @@ impl Flat {
 
 fn same_sign(a: f64, b: f64) -> bool {
     (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
-}
-
-/// An axis to drop so that the face keeps a non-zero area, preferring its largest projection; `None` for a face of
-/// exactly zero area.
-pub(crate) fn projection_axis(corners: &[DVec3; 3]) -> Option<usize> {
-    let [a, b, c] = *corners;
-    let best = (b - a).cross(c - a).abs().max_position();
-    [best, (best + 1) % 3, (best + 2) % 3]
-        .into_iter()
-        .find(|&axis| turn2(axis, a, b, c) != 0.0)
-}
-
-/// Sign of the turn `a, b, c` seen along `axis`.
-pub(crate) fn turn2(axis: usize, a: DVec3, b: DVec3, c: DVec3) -> f64 {
-    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-    let drop = |p: DVec3| Coord { x: p[x], y: p[y] };
-    robust::orient2d(drop(a), drop(b), drop(c))
-}
-
-/// Positive if `d` lies behind the plane of `a, b, c` (which turn counter-clockwise as seen from the front).
-pub(crate) fn turn3(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
-    // Level and upright planes are common in printed bodies, and exact zeros are what the adaptive test is slowest at.
-    if ((a.cmpeq(b) & a.cmpeq(c)) & a.cmpeq(d)).any() {
-        return 0.0;
-    }
-    let coord = |p: DVec3| Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    };
-    robust::orient3d(coord(a), coord(b), coord(c), coord(d))
 }

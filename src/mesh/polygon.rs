@@ -4,7 +4,7 @@
 //! wound as the polygon. Corners at the same place and crossing outlines give useless triangles, never a failure.
 //! Ears are clipped; the two entrances differ only in which ear comes next.
 
-use crate::mesh::intersect::turn2;
+use crate::mesh::turns::turn2;
 use glam::{DVec2, DVec3};
 
 /// Work beyond which a concave polygon is cut as if it were convex instead of clipped (corners times reflex corners): a second or so.

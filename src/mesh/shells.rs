@@ -5,9 +5,9 @@
 
 use crate::index::{ComponentId, FaceId};
 use crate::mesh::boxes::{Box3, BoxTree};
-use crate::mesh::intersect::{turn2, turn3};
-use crate::mesh::topology::face_components;
+use crate::mesh::topology::{Edges, face_components, face_components_of};
 use crate::mesh::tri_mesh::TriMesh;
+use crate::mesh::turns::{turn2, turn3};
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -25,7 +25,39 @@ pub struct Shell {
 impl Shell {
     /// Whether material lies behind it and none in front of it: an outer surface in the open, or a cavity in a part.
     pub fn is_sound(&self) -> bool {
-        (self.volume > 0.0 && self.winding == 0) || (self.volume < 0.0 && self.winding == 1)
+        self.is_outer() || (self.volume < 0.0 && self.winding == 1)
+    }
+
+    fn is_outer(&self) -> bool {
+        self.volume > 0.0 && self.winding == 0
+    }
+}
+
+/// A closed surface with what was found out about it, so that nobody has to again.
+#[derive(Clone, Debug)]
+pub(crate) struct ClosedSurface {
+    pub mesh: TriMesh,
+    pub edges: Edges,
+    pub shells: Vec<Shell>,
+}
+
+impl ClosedSurface {
+    pub(crate) fn new(mesh: TriMesh) -> Self {
+        let edges = Edges::new(&mesh);
+        let shells = shells_of(&mesh, &edges);
+        Self {
+            mesh,
+            edges,
+            shells,
+        }
+    }
+
+    /// As [`without_cavities`].
+    pub(crate) fn without_cavities(self) -> Self {
+        if self.shells.iter().all(Shell::is_outer) {
+            return self;
+        }
+        Self::new(without_cavities(self.mesh))
     }
 }
 
@@ -35,7 +67,12 @@ const MAX_PLACED: usize = 20_000;
 
 /// The shells by rising first face.
 pub fn shells(mesh: &TriMesh) -> Vec<Shell> {
-    let component = face_components(mesh);
+    shells_of(mesh, &Edges::new(mesh))
+}
+
+/// As [`shells`], for edges already at hand.
+pub(crate) fn shells_of(mesh: &TriMesh, edges: &Edges) -> Vec<Shell> {
+    let component = face_components_of(edges, mesh.faces.len());
     let mut shells = volumes(mesh, &component);
     place(mesh, &component, &mut shells);
     shells

@@ -3,9 +3,9 @@
 //! After this stage there are no holes, no edges of three or four faces, no touching or intersecting faces, no faces
 //! without area, no inverted shells, and no coordinates that change when written as f32.
 
-use crate::mesh::defects::{Defect, check, check_with};
+use crate::mesh::defects::{Defect, check, check_parted};
 use crate::mesh::resolve::Resolved;
-use crate::mesh::shells::{shells, without_cavities};
+use crate::mesh::shells::ClosedSurface;
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::{drop_unreferenced, rounded_to_f32, weld};
 use glam::DVec3;
@@ -29,8 +29,10 @@ impl Solid {
     pub fn new(mesh: TriMesh) -> Result<Self, Vec<Defect>> {
         let mut mesh = weld(&rounded_to_f32(&mesh), 0.0).mesh;
         drop_unreferenced(&mut mesh);
-        let defects = check(&mesh);
-        Self::checked(mesh, defects)
+        match check(&mesh) {
+            defects if defects.is_empty() => Ok(Self::of_sound(ClosedSurface::new(mesh))),
+            defects => Err(defects),
+        }
     }
 
     /// What [`resolved`](crate::mesh::resolved) gave, without hollows that nobody can reach and parts that lie in others. Checked for
@@ -39,23 +41,22 @@ impl Solid {
     /// # Errors
     /// Every defect that keeps it from being a solid.
     pub fn of_resolved(resolved: Resolved) -> Result<Self, Vec<Defect>> {
-        let mesh = without_cavities(resolved.mesh);
-        let defects = check_with(&mesh, Vec::new);
-        Self::checked(mesh, defects)
+        let surface = resolved.surface.without_cavities();
+        match check_parted(&surface) {
+            defects if defects.is_empty() => Ok(Self::of_sound(surface)),
+            defects => Err(defects),
+        }
     }
 
-    fn checked(mesh: TriMesh, defects: Vec<Defect>) -> Result<Self, Vec<Defect>> {
-        if !defects.is_empty() {
-            return Err(defects);
-        }
-        let shells = shells(&mesh);
+    fn of_sound(surface: ClosedSurface) -> Self {
+        let shells = surface.shells;
         let parts = shells.iter().filter(|s| s.volume > 0.0).count();
-        Ok(Self {
-            mesh,
+        Self {
+            mesh: surface.mesh,
             parts,
             cavities: shells.len() - parts,
             volume_mm3: shells.iter().map(|s| s.volume).sum(),
-        })
+        }
     }
 
     pub fn mesh(&self) -> &TriMesh {

@@ -18,6 +18,15 @@ const MOST_NEIGHBOURS: usize = 24;
 
 /// The mesh without corners that it can spare within `tolerance` millimetres. A corner with open or crowded edges stays.
 pub fn without_spare_corners(mesh: TriMesh, tolerance: f64) -> TriMesh {
+    without_spare_corners_where(mesh, tolerance, |_| true)
+}
+
+/// The same, where of corners at other places than `may_be_spare` tells only those are looked at that lose a neighbour.
+pub(crate) fn without_spare_corners_where(
+    mesh: TriMesh,
+    tolerance: f64,
+    may_be_spare: impl Fn(DVec3) -> bool,
+) -> TriMesh {
     let mut around = vec![Vec::new(); mesh.vertices.len()];
     for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
         face.iter().for_each(|v| around[*v].push(f));
@@ -25,12 +34,13 @@ pub fn without_spare_corners(mesh: TriMesh, tolerance: f64) -> TriMesh {
     let count = mesh.vertices.len();
     let mut sparing = Sparing {
         moved: vec![0.0; count],
-        is_waiting: vec![true; count],
+        is_waiting: mesh.vertices.iter().map(|p| may_be_spare(*p)).collect(),
         mesh,
         around,
         tolerance,
     };
-    let mut queue: VecDeque<VertexId> = VertexId::all(count).collect();
+    let waiting = VertexId::all(count).filter(|v| sparing.is_waiting[*v]);
+    let mut queue: VecDeque<VertexId> = waiting.collect();
     while let Some(v) = queue.pop_front() {
         sparing.is_waiting[v] = false;
         // Every corner spared is one less: it ends.

@@ -60,6 +60,7 @@ impl HalfEdge {
 /// All half-edges of a mesh, those of the same edge next to each other in face order.
 ///
 /// Faces that repeat an index give half-edges too, except from a vertex to itself.
+#[derive(Clone, Debug)]
 pub struct Edges {
     half: Vec<HalfEdge>,
 }

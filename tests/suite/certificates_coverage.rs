@@ -438,7 +438,8 @@ impl Built {
         let operands: Vec<Operand> = views
             .map(|(sight, relief)| Operand::Relief { sight, relief })
             .collect();
-        let forest = carve(sights[0].image.field, &operands).expect("a forest");
+        let forest =
+            carve(sights[0].image.field, &operands, defaults::PRINTER.nozzle).expect("a forest");
         Self {
             sights,
             reliefs,

@@ -219,6 +219,44 @@ fn intersections_do_not_depend_on_place_order_or_limit() {
 }
 
 #[test]
+fn faces_at_one_vertex_are_found_however_they_are_crumpled() {
+    // Each vertex is moved along its own direction, so that some of its faces fold over each other and others do not.
+    let crumpled = |by: f64| {
+        let mut mesh = bumpy_sphere(24, 12, 0.05);
+        for (k, v) in mesh.vertices.iter_mut().enumerate() {
+            let k = k as f64;
+            *v += by * DVec3::new((7.0 * k).sin(), (11.0 * k).sin(), (13.0 * k).sin());
+        }
+        mesh
+    };
+    let mut met = Vec::new();
+    for by in [0.0, 1.0, 3.0] {
+        let mesh = crumpled(by);
+        let neighbours = |pair: &[FaceId; 2]| {
+            let [a, b] = pair.map(|f| mesh.faces[f]);
+            a.iter().any(|v| b.contains(v))
+        };
+        let faces = || FaceId::all(mesh.faces.len());
+        let meet = |pair: &[FaceId; 2]| {
+            let alone = TriMesh {
+                vertices: mesh.vertices.clone(),
+                faces: pair.iter().map(|f| mesh.faces[*f]).collect(),
+            };
+            !self_intersections(&alone, 1).is_empty()
+        };
+        let one_by_one: Vec<[FaceId; 2]> = faces()
+            .flat_map(|a| faces().filter(move |b| a < *b).map(move |b| [a, b]))
+            .filter(|pair| neighbours(pair) && meet(pair))
+            .collect();
+        let mut together = self_intersections(&mesh, usize::MAX);
+        together.retain(|pair| neighbours(pair));
+        assert_eq!(together, one_by_one, "moved by {by}");
+        met.push(together.len());
+    }
+    assert!(met[0] == 0 && met[1] > 0 && met[2] > met[1], "{met:?}");
+}
+
+#[test]
 fn a_solid_survives_being_written_as_f32() {
     let turn =
         DMat4::from_rotation_translation(DQuat::from_rotation_y(0.3), DVec3::splat(1.0 / 3.0));

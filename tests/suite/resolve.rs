@@ -162,6 +162,61 @@ fn fans_thinner_than_rounding_come_out_sound() {
     }
 }
 
+/// All ways to triangulate corners `from` to `to` of a convex figure.
+fn triangulations(from: usize, to: usize) -> Vec<Vec<[usize; 3]>> {
+    if to - from < 2 {
+        return vec![Vec::new()];
+    }
+    let mut all = Vec::new();
+    for apex in from + 1..to {
+        for near in triangulations(from, apex) {
+            for far in triangulations(apex, to) {
+                let own = [[from, apex, to]];
+                all.push(near.iter().chain(&far).chain(&own).copied().collect());
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn a_row_of_faces_without_area_goes_however_it_is_made() {
+    // One side of a tetrahedron has six corners along an edge, the other has two; between them are faces of corners in one line.
+    const HEIGHTS: [f64; 6] = [0.0, 1.25, 1.5, 3.5, 3.75, 5.0];
+    let ways = triangulations(0, 5);
+    assert_eq!(ways.len(), 14);
+    let mut orders: Vec<[usize; 6]> = vec![[0, 1, 2, 3, 4, 5]];
+    for k in 0..60 {
+        let mut order = orders[k];
+        order.swap(k % 6, (5 * k + 1 + k / 7) % 6);
+        order.rotate_left(k % 4);
+        orders.push(order);
+    }
+    for (way, order) in ways
+        .iter()
+        .flat_map(|way| orders.iter().map(move |o| (way, o)))
+    {
+        let mut vertices = vec![DVec3::ZERO; 8];
+        order
+            .iter()
+            .zip(HEIGHTS)
+            .for_each(|(v, z)| vertices[*v].z = z);
+        vertices[6] = 4.0 * DVec3::X;
+        vertices[7] = 4.0 * DVec3::Y;
+        let row = |k: usize| order[k] as u32;
+        let mut faces = vec![[row(0), 7, 6], [row(5), 6, 7], [row(0), row(5), 7]];
+        faces.extend((0..5).map(|k| [row(k), 6, row(k + 1)]));
+        faces.extend(way.iter().map(|face| face.map(row)));
+        let (solid, made) = solid(&TriMesh::new(vertices, faces));
+        let whole = 40.0 / 3.0;
+        assert!(
+            (solid.volume_mm3() - whole).abs() < 1e-9,
+            "{way:?} {order:?}"
+        );
+        assert_eq!(made.took.moved_mm, 0.0, "{way:?} {order:?}");
+    }
+}
+
 #[test]
 fn flat_parts_become_delaunay_and_keep_their_corners() {
     let mut mesh = facet_with_chain(40, 1e-5);

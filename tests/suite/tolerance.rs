@@ -13,6 +13,7 @@ use pillarforest::certify::tolerance::{
 use pillarforest::index::SupportId;
 use pillarforest::mimic::{Energy, FaceWeight, NormalOptions};
 use pillarforest::relief::relief;
+use pillarforest::scene::defaults;
 use pillarforest::steps::{UNSEEN_RAD, torn};
 use pillarforest::support::{Datum, Support, SupportKind};
 use pillarforest::viewmap::Image;
@@ -147,7 +148,8 @@ fn rays_at_the_solid_measure_what_the_closed_form_says() {
         sight: &seen.sight,
         relief: &seen.relief,
     };
-    let forest = carve(seen.sight.image.field, &[operand]).expect("a forest");
+    let forest =
+        carve(seen.sight.image.field, &[operand], defaults::PRINTER.nozzle).expect("a forest");
     let mesh = forest.whole.mesh();
     let bvh = Bvh::new(mesh);
     let mut found = seen.tolerance();

@@ -53,14 +53,19 @@ impl Bends {
         self.edges.contains_key(&ends(edge))
     }
 
-    /// The corner that a face goes through because it, or one of its edges, was bent; and the parts that makes of it.
+    /// The corner that a face goes through because it, or one of its edges, was bent; and the parts that makes of it. A side that goes
+    /// through the face's own third corner comes first: it leaves nothing of the face, while any other may lead back to it.
     pub(super) fn parts(&self, face: [VertexId; 3]) -> Option<(VertexId, Vec<[VertexId; 3]>)> {
         let through = |v: VertexId, corners: &[VertexId]| {
             let parts = corners.iter().map(|out| replaced(face, *out, v));
             (!corners.contains(&v)).then(|| (v, parts.collect()))
         };
-        let of_side =
-            |[a, b]: [VertexId; 2]| through(self.now(*self.edges.get(&ends([a, b]))?), &[b, a]);
+        let bent = |[a, b]: [VertexId; 2]| self.edges.get(&ends([a, b])).map(|v| self.now(*v));
+        let own = |side| bent(side).filter(|v| !side.contains(v) && face.contains(v));
+        if let Some(v) = sides(face).into_iter().find_map(own) {
+            return Some((v, Vec::new()));
+        }
+        let of_side = |[a, b]: [VertexId; 2]| through(bent([a, b])?, &[b, a]);
         let of_face = || through(self.now(*self.faces.get(&sorted(face))?), &face);
         sides(face).into_iter().find_map(of_side).or_else(of_face)
     }

@@ -8,9 +8,9 @@
 use super::bends::{Bends, Contradiction, replaced};
 use crate::geom::{area_vector, distance_to_segment, height, nearest_points};
 use crate::index::{FaceId, VertexId};
-use crate::mesh::intersect::projection_axis;
 use crate::mesh::topology::sides;
 use crate::mesh::tri_mesh::TriMesh;
+use crate::mesh::turns::projection_axis;
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
 

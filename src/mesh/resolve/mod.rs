@@ -25,6 +25,7 @@ mod touching;
 use super::boxes::{Box3, BoxTree};
 use super::delaunay::make_delaunay;
 use super::intersect::{meet, self_intersections};
+use super::shells::ClosedSurface;
 use super::topology::sides;
 use super::tri_mesh::TriMesh;
 use super::weld::snap_to_f32;
@@ -36,7 +37,7 @@ use glue::{flatten, glue_corner, glue_crossing};
 use rayon::prelude::*;
 use regions::enclosed;
 use std::collections::VecDeque;
-use touching::part_touching;
+use touching::{part_touching, touches};
 
 pub use complex::NEAR_MM;
 
@@ -74,17 +75,18 @@ impl Resolving {
 /// A surface without intersections, and what it took.
 #[derive(Clone, Debug)]
 pub struct Resolved {
-    pub(super) mesh: TriMesh,
+    pub(super) surface: ClosedSurface,
     pub took: Resolving,
 }
 
 impl Resolved {
     pub fn mesh(&self) -> &TriMesh {
-        &self.mesh
+        &self.surface.mesh
     }
 
-    pub fn into_mesh(self) -> TriMesh {
-        self.mesh
+    /// The mesh without hollows that nobody can reach and parts that lie in others.
+    pub fn without_cavities(self) -> TriMesh {
+        self.surface.without_cavities().mesh
     }
 }
 
@@ -122,12 +124,13 @@ pub fn resolved(mesh: &TriMesh) -> Result<Resolved, Tangled> {
             took.rounds += untangle(&mut complex, pairs)?;
             mesh = finished(complex, &mut took)?;
         }
-        mesh = enclosed(mesh);
+        let surface = enclosed(mesh);
+        if !touches(&surface) {
+            return Ok(Resolved { surface, took });
+        }
+        mesh = surface.mesh;
         let changed = part_touching(&mut mesh);
-        let Some(first) = changed.first() else {
-            return Ok(Resolved { mesh, took });
-        };
-        place = mesh.corners(*first)[0];
+        place = changed.first().map_or(place, |f| mesh.corners(*f)[0]);
         pairs = pairs_with(&mesh, &changed);
     }
     Err(Tangled {

@@ -6,10 +6,10 @@
 
 use crate::index::{FaceId, indices};
 use crate::mesh::boxes::BoxTree;
-use crate::mesh::intersect::turn3;
-use crate::mesh::shells::{Shell, shells, winding_number};
+use crate::mesh::shells::{ClosedSurface, Shell, shells_of, winding_number};
 use crate::mesh::topology::{DisjointSets, Edges, HalfEdge, face_components_of};
 use crate::mesh::tri_mesh::TriMesh;
+use crate::mesh::turns::turn3;
 use crate::mesh::weld::{drop_unreferenced, duplicate_groups, retain_faces};
 use glam::DVec3;
 
@@ -26,11 +26,23 @@ impl SideId {
 
 /// The boundary of what is enclosed at least once. Faces that cancel or lie inside are gone, some perhaps turned. What is that already
 /// stays as it is.
-pub(crate) fn enclosed(mesh: TriMesh) -> TriMesh {
-    let is_manifold = Edges::new(&mesh).iter().all(|sides| sides.len() == 2);
-    if is_manifold && shells(&mesh).iter().all(Shell::is_sound) {
-        return mesh;
+pub(crate) fn enclosed(mesh: TriMesh) -> ClosedSurface {
+    let edges = Edges::new(&mesh);
+    if edges.iter().all(|sides| sides.len() == 2) {
+        let shells = shells_of(&mesh, &edges);
+        if shells.iter().all(Shell::is_sound) {
+            return ClosedSurface {
+                mesh,
+                edges,
+                shells,
+            };
+        }
     }
+    ClosedSurface::new(boundary(mesh))
+}
+
+/// The boundary of what is enclosed at least once, whatever the mesh is.
+fn boundary(mesh: TriMesh) -> TriMesh {
     let (mesh, times) = stacked(mesh);
     let edges = Edges::new(&mesh);
     let mut regions = DisjointSets::new(2 * mesh.faces.len());

@@ -6,7 +6,8 @@
 use super::complex::NEAR_MM;
 use super::regions::sorted_around;
 use crate::index::{FaceId, VertexId};
-use crate::mesh::topology::{DisjointSets, Edges, FaceCorner, HalfEdge};
+use crate::mesh::shells::ClosedSurface;
+use crate::mesh::topology::{DisjointSets, Edges, FaceCorner, HalfEdge, bowtie_vertices};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
 use glam::DVec3;
@@ -14,6 +15,12 @@ use glam::DVec3;
 /// How far touching surfaces are drawn back, millimetres: so far that gluing does not join them again, and four thousandths of a
 /// printed line.
 const GAP_MM: f64 = 3.0 * NEAR_MM;
+
+/// Whether a surface has an edge or a vertex with more faces than a manifold has.
+pub(crate) fn touches(surface: &ClosedSurface) -> bool {
+    let ClosedSurface { mesh, edges, .. } = surface;
+    edges.iter().any(|sides| sides.len() > 2) || !bowtie_vertices(mesh, edges).is_empty()
+}
 
 /// Splits touching edges and vertices of the boundary of a solid; gives the faces that changed, rising.
 pub(crate) fn part_touching(mesh: &mut TriMesh) -> Vec<FaceId> {
