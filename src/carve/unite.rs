@@ -9,7 +9,6 @@ use crate::index::{SupportId, ViewId};
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::mesh::{Resolving, Solid, TriMesh, without_spare_corners_where};
 use crate::viewmap::SupportField;
-use glam::DVec3;
 use rayon::prelude::*;
 
 /// Carves and unites everything; `line` is the width of a printed line, millimetres.
@@ -74,32 +73,21 @@ fn unite(carved: Vec<Carved>, views: &[&str]) -> Result<Forest, CarveError> {
 /// What is read by the library is read here, in order: it numbers meshes as they come, those of different supports in the order of
 /// threads, and its results depend on that.
 fn united(parts: Vec<&TriMesh>, place: &str) -> Result<Option<(Solid, Resolving)>, CarveError> {
-    let overlaps = overlaps(&parts);
     let mut gathered = gathered(&parts);
     if gathered.len() < 2 {
         let only = gathered.pop();
         return only.map(|mesh| sound_mesh(&mesh, place)).transpose();
     }
-    let parts: Result<Vec<Boolean>, BooleanError> = gathered.iter().map(Boolean::new).collect();
-    let whole = parts.and_then(Boolean::union);
+    let read: Result<Vec<Boolean>, BooleanError> = gathered.iter().map(Boolean::new).collect();
+    let whole = read.and_then(Boolean::union);
     let whole = whole.map_err(|source| CarveError::Boolean {
         place: place.into(),
         source,
     })?;
     // The parts are without spare corners, and where they are apart they stay as they were.
-    let is_new = |p: DVec3| {
-        let mut found = false;
-        overlaps.overlapping(&Box3 { lo: p, hi: p }, |_| {
-            found = true;
-            false
-        });
-        found
-    };
-    sound_mesh(
-        &without_spare_corners_where(whole.mesh(), SPARE_MM, is_new),
-        place,
-    )
-    .map(Some)
+    let overlaps = overlaps(&parts);
+    let spared = without_spare_corners_where(whole.mesh(), SPARE_MM, |p| overlaps.covers(p));
+    sound_mesh(&spared, place).map(Some)
 }
 
 /// Where the boxes of two parts overlap.

@@ -166,6 +166,20 @@ impl BoxTree {
         true
     }
 
+    /// Whether a place lies in any of the boxes.
+    pub fn covers(&self, place: DVec3) -> bool {
+        let mut found = false;
+        let point = Box3 {
+            lo: place,
+            hi: place,
+        };
+        self.overlapping(&point, |_| {
+            found = true;
+            false
+        });
+        found
+    }
+
     /// Calls `visit` with the number of every box that meets `query`; stops when it returns false.
     pub fn overlapping(&self, query: &Box3, mut visit: impl FnMut(BoxId) -> bool) {
         let mut stack = [NodeId(0); MAX_DEPTH];
