@@ -9,7 +9,7 @@ use super::piece::ReliefOnSupport;
 use super::sound::{CRUMB_MM3, spared};
 use crate::index::{CellId, SupportId, ViewId};
 use crate::mesh::{TriMesh, resolved};
-use crate::support::{Slab, Support};
+use crate::support::{Slab, Support, SupportKind};
 use crate::viewmap::SupportField;
 
 /// How far a relief's edge is bedded in its support, millimetres at the support: less than a tenth of a printed line, so unseen. At
@@ -46,6 +46,7 @@ pub(crate) fn carve_support(
     let mut work = SupportWork {
         support,
         edge: CarvingEdge { bed: BED_MM, line },
+        foot: foot(field, support),
         bare: Boolean::new(&support.mesh).map_err(failed)?,
         blocks: Vec::new(),
         given_up: Vec::new(),
@@ -68,6 +69,16 @@ pub(crate) fn carve_support(
     Ok(work.carved(&whole))
 }
 
+/// Height of a pillar's lower end, if it stands in a base.
+fn foot(field: &SupportField, support: &Support) -> Option<f64> {
+    let mut kinds = field.supports.iter().map(|s| &s.kind);
+    let has_base = kinds.any(|k| matches!(k, SupportKind::Base { .. }));
+    match support.kind {
+        SupportKind::Pillar { bottom, .. } if has_base => Some(bottom),
+        _ => None,
+    }
+}
+
 /// What one view puts on a support.
 struct OnSupport {
     view: ViewId,
@@ -82,6 +93,8 @@ struct OnSupport {
 struct SupportWork<'a> {
     support: &'a Support,
     edge: CarvingEdge,
+    /// Where it ends in a base, if it does: height of its lower end.
+    foot: Option<f64>,
     bare: Boolean,
     blocks: Vec<OnSupport>,
     given_up: Vec<(ViewId, Vec<CellId>)>,
@@ -132,7 +145,9 @@ impl SupportWork<'_> {
         for block in &mut self.blocks {
             let joined = whole.plus(&block.solid)?;
             let braces = match &block.slab {
-                Some(slab) if !self.support.is_body() => braces(&joined, slab, CRUMB_MM3)?,
+                Some(slab) if !self.support.is_body() => {
+                    braces(&joined, slab, self.foot, CRUMB_MM3)?
+                }
                 _ => Vec::new(),
             };
             self.repairs.braces += braces.len();
