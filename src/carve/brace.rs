@@ -29,7 +29,9 @@ pub(crate) fn braces(
         if !vertices.iter().any(stands) {
             let brace = brace(vertices, slab)?;
             // Of points in one plane there is nothing but that plane, twice.
-            braces.extend(Some(brace).filter(|b| b.volume() >= crumb));
+            if brace.volume() >= crumb {
+                braces.push(brace);
+            }
         }
     }
     Ok(braces)

@@ -71,11 +71,10 @@ pub(crate) fn carve_support(
 
 /// Height of a pillar's lower end, if it stands in a base.
 fn foot(field: &SupportField, support: &Support) -> Option<f64> {
-    let mut kinds = field.supports.iter().map(|s| &s.kind);
-    let has_base = kinds.any(|k| matches!(k, SupportKind::Base { .. }));
+    field.base_top()?;
     match support.kind {
-        SupportKind::Pillar { bottom, .. } if has_base => Some(bottom),
-        _ => None,
+        SupportKind::Pillar { bottom, .. } => Some(bottom),
+        SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     }
 }
 

@@ -5,7 +5,8 @@
 //! Exact: coordinates are dropped, not rounded, and only signs of determinants and comparisons decide.
 
 use crate::geom::area_vector;
-use crate::index::{FaceId, VertexId};
+use crate::index::VertexId;
+use crate::mesh::topology::{FaceCorner, sorted_by_vertex};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::turns::turn2;
 use glam::DVec3;
@@ -16,58 +17,25 @@ const MOST_FACES: usize = 32;
 
 /// For each vertex whether its faces lie side by side. Vertices with open or crowded edges do not count.
 pub(crate) fn plain_fans(mesh: &TriMesh) -> Vec<bool> {
-    let around = FacesAround::new(mesh);
-    let vertices = 0..mesh.vertices.len() as u32;
-    vertices
-        .into_par_iter()
-        .map(|v| is_plain(mesh, VertexId(v), around.faces(VertexId(v))))
-        .collect()
+    let corners = FaceCorner::all(3 * mesh.faces.len()).map(|c| (c.vertex(mesh), c));
+    let by_vertex = sorted_by_vertex(corners.collect(), |(v, _)| *v);
+    let fans = by_vertex.par_chunk_by(|a, b| a.0 == b.0);
+    let found: Vec<(VertexId, bool)> = fans.map(|fan| (fan[0].0, is_plain(mesh, fan))).collect();
+    let mut plain = vec![false; mesh.vertices.len()];
+    found.into_iter().for_each(|(v, is)| plain[v] = is);
+    plain
 }
 
-/// The faces around each vertex.
-struct FacesAround {
-    /// Where those of a vertex begin; one more than there are vertices.
-    start: Vec<usize>,
-    faces: Vec<FaceId>,
-}
-
-impl FacesAround {
-    fn new(mesh: &TriMesh) -> Self {
-        let mut start = vec![0; mesh.vertices.len() + 1];
-        for v in mesh.faces.iter().flatten() {
-            start[v.at() + 1] += 1;
-        }
-        for v in 1..start.len() {
-            start[v] += start[v - 1];
-        }
-        let mut next = start.clone();
-        let mut faces = vec![FaceId(0); 3 * mesh.faces.len()];
-        for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
-            for v in face {
-                faces[next[v.at()]] = f;
-                next[v.at()] += 1;
-            }
-        }
-        Self { start, faces }
-    }
-
-    fn faces(&self, v: VertexId) -> &[FaceId] {
-        &self.faces[self.start[v.at()]..self.start[v.at() + 1]]
-    }
-}
-
-fn is_plain(mesh: &TriMesh, v: VertexId, faces: &[FaceId]) -> bool {
-    if faces.len() > MOST_FACES {
+/// Whether the faces of a vertex, given with all its corners, lie side by side.
+fn is_plain(mesh: &TriMesh, fan: &[(VertexId, FaceCorner)]) -> bool {
+    if fan.len() > MOST_FACES {
         return false;
     }
+    let v = fan[0].0;
     // The side of each face opposite to the vertex.
-    let mut opposite = [[v; 2]; MOST_FACES];
-    for (side, f) in opposite.iter_mut().zip(faces) {
-        let face = mesh.faces[*f];
-        let k = face.iter().position(|x| *x == v).unwrap_or(0);
-        *side = [face[(k + 1) % 3], face[(k + 2) % 3]];
-    }
-    let opposite = &opposite[..faces.len()];
+    let opposite =
+        |c: FaceCorner| [1, 2].map(|on| FaceCorner::of(c.face(), c.k() + on).vertex(mesh));
+    let opposite: Vec<[VertexId; 2]> = fan.iter().map(|(_, c)| opposite(*c)).collect();
     let follows = |end: VertexId| opposite.iter().filter(|side| side[0] == end).count() == 1;
     if !opposite.iter().all(|side| follows(side[1])) {
         return false;

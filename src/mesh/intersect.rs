@@ -20,18 +20,20 @@ const BLOCK: usize = 1 << 8;
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.
 pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
-    let flat: Vec<Option<usize>> = (0..mesh.faces.len())
-        .into_par_iter()
-        .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))
-        .collect();
-    let plain = plain_fans(mesh);
-    let tree = BoxTree::of_faces(mesh);
+    let looking = MeetingFaces {
+        mesh,
+        axis: (0..mesh.faces.len())
+            .into_par_iter()
+            .map(|f| projection_axis(&mesh.corners(FaceId::new(f))))
+            .collect(),
+        plain: plain_fans(mesh),
+        tree: BoxTree::of_faces(mesh),
+        limit,
+    };
     let mut pairs = Vec::new();
-    for block in tree.leaves().chunks(BLOCK) {
-        let found: Vec<Vec<[FaceId; 2]>> = block
-            .par_iter()
-            .map(|leaf| pairs_of(mesh, &flat, &plain, &tree, *leaf, limit))
-            .collect();
+    for block in looking.tree.leaves().chunks(BLOCK) {
+        let found = block.par_iter().map(|leaf| looking.pairs_of(*leaf));
+        let found: Vec<Vec<[FaceId; 2]>> = found.collect();
         pairs.extend(found.into_iter().flatten());
         if pairs.len() >= limit {
             break;
@@ -41,28 +43,41 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
     pairs
 }
 
-/// The pairs of a leaf's faces with each other and with those of later leaves.
-fn pairs_of(
-    mesh: &TriMesh,
-    flat: &[Option<usize>],
-    plain: &[bool],
-    tree: &BoxTree,
-    leaf: LeafId,
+/// A mesh whose faces are compared.
+struct MeetingFaces<'a> {
+    mesh: &'a TriMesh,
+    /// Of each face an axis to drop; `None` for one without area.
+    axis: Vec<Option<usize>>,
+    /// Vertices whose faces need not be compared with each other.
+    plain: Vec<bool>,
+    tree: BoxTree,
     limit: usize,
-) -> Vec<[FaceId; 2]> {
-    let mut pairs = Vec::new();
-    tree.meeting(leaf, |[a, b]| {
-        let pair = [FaceId(a.0.min(b.0)), FaceId(a.0.max(b.0))];
-        let [va, vb] = pair.map(|f| mesh.faces[f]);
-        if !va.iter().any(|v| plain[*v] && vb.contains(v))
-            && let [Some(axis_a), Some(axis_b)] = pair.map(|f| flat[f])
-            && faces_intersect(mesh, pair, [axis_a, axis_b])
-        {
-            pairs.push(pair);
+}
+
+impl MeetingFaces<'_> {
+    /// The pairs of a leaf's faces with each other and with those of later leaves.
+    fn pairs_of(&self, leaf: LeafId) -> Vec<[FaceId; 2]> {
+        let mut pairs = Vec::new();
+        self.tree.meeting(leaf, |[a, b]| {
+            let pair = [FaceId(a.0.min(b.0)), FaceId(a.0.max(b.0))];
+            if self.meet(pair) {
+                pairs.push(pair);
+            }
+            pairs.len() < self.limit
+        });
+        pairs
+    }
+
+    fn meet(&self, pair: [FaceId; 2]) -> bool {
+        let [a, b] = pair.map(|f| self.mesh.faces[f]);
+        if a.iter().any(|v| self.plain[*v] && b.contains(v)) {
+            return false;
         }
-        pairs.len() < limit
-    });
-    pairs
+        match pair.map(|f| self.axis[f]) {
+            [Some(x), Some(y)] => faces_intersect(self.mesh, pair, [x, y]),
+            _ => false,
+        }
+    }
 }
 
 /// Whether two faces cut, touch or overlap each other beyond what they share. A face without area does not.

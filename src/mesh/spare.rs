@@ -6,6 +6,7 @@
 
 use crate::geom::{area_vector, height};
 use crate::index::{FaceId, VertexId};
+use crate::mesh::topology::faces_around;
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::weld::drop_unreferenced;
 use glam::{DVec2, DVec3};
@@ -27,16 +28,12 @@ pub(crate) fn without_spare_corners_where(
     tolerance: f64,
     may_be_spare: impl Fn(DVec3) -> bool,
 ) -> TriMesh {
-    let mut around = vec![Vec::new(); mesh.vertices.len()];
-    for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
-        face.iter().for_each(|v| around[*v].push(f));
-    }
     let count = mesh.vertices.len();
     let mut sparing = Sparing {
         moved: vec![0.0; count],
         is_waiting: mesh.vertices.iter().map(|p| may_be_spare(*p)).collect(),
+        around: faces_around(&mesh),
         mesh,
-        around,
         tolerance,
     };
     let waiting = VertexId::all(count).filter(|v| sparing.is_waiting[*v]);

@@ -122,6 +122,15 @@ pub(crate) fn sorted_by_vertex<T: Ord + Copy>(
     sorted
 }
 
+/// The faces around each vertex, rising; a face that names a vertex twice is there twice.
+pub(crate) fn faces_around(mesh: &TriMesh) -> Vec<Vec<FaceId>> {
+    let mut around = vec![Vec::new(); mesh.vertices.len()];
+    for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
+        face.iter().for_each(|v| around[*v].push(f));
+    }
+    around
+}
+
 /// For each face the number of its component, components being joined by shared edges (also edges of more than two
 /// faces) and numbered by their first face.
 pub fn face_components(mesh: &TriMesh) -> Vec<ComponentId> {

@@ -89,7 +89,7 @@ impl<'a> SupportField<'a> {
     }
 
     /// Top of the base, if there is one.
-    pub(super) fn base_top(&self) -> Option<f64> {
+    pub fn base_top(&self) -> Option<f64> {
         self.supports.iter().find_map(|s| match s.kind {
             SupportKind::Base { top, .. } => Some(top),
             SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,

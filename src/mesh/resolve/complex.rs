@@ -8,7 +8,7 @@
 use super::bends::{Bends, Contradiction, replaced};
 use crate::geom::{area_vector, distance_to_segment, height, nearest_points};
 use crate::index::{FaceId, VertexId};
-use crate::mesh::topology::sides;
+use crate::mesh::topology::{faces_around, sides};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::turns::projection_axis;
 use crate::mesh::weld::drop_unreferenced;
@@ -35,14 +35,10 @@ pub(crate) struct Complex {
 impl Complex {
     /// Of a mesh whose faces name three different vertices.
     pub(crate) fn new(mesh: TriMesh) -> Self {
-        let mut around = vec![Vec::new(); mesh.vertices.len()];
-        for (f, face) in FaceId::all(mesh.faces.len()).zip(&mesh.faces) {
-            face.iter().for_each(|v| around[*v].push(f));
-        }
         Self {
             drift: vec![0.0; mesh.vertices.len()],
+            around: faces_around(&mesh),
             mesh,
-            around,
             bends: Bends::default(),
             moved: 0.0,
             moved_at: DVec3::ZERO,
