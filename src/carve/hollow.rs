@@ -119,9 +119,30 @@ fn shape(
         None => false,
     };
     let seen: Vec<CellId> = CellId::all(map.cells.len()).filter(goes_on).collect();
-    let seen = simple(outlines(map, &seen, scale));
-    let rim = taken(&offset(relief, edge.line), &offset(&seen, -RIM_OVERLAP_MM));
+    let seen = outlines(map, &seen, scale);
+    // Beyond the mapped window supports may go on: nothing is carved there.
+    let goes_on = simple([seen, beyond_window(map, scale, 2.0 * edge.line)].concat());
+    let rim = taken(
+        &offset(relief, edge.line),
+        &offset(&goes_on, -RIM_OVERLAP_MM),
+    );
     flat(offset(relief, -edge.bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
+}
+
+/// A frame `width` millimetres wide around what the view map covers.
+fn beyond_window(map: &ViewMap, scale: f64, width: f64) -> Rings {
+    let first = map.points[0];
+    let (lo, hi) = map
+        .points
+        .iter()
+        .fold((first, first), |(lo, hi), q| (lo.min(*q), hi.max(*q)));
+    let corners = |by: f64| {
+        let (lo, hi) = (scale * lo - by, scale * hi + by);
+        vec![lo.to_array(), [hi.x, lo.y], hi.to_array(), [lo.x, hi.y]]
+    };
+    let mut hole = corners(0.0);
+    hole.reverse();
+    vec![corners(width), hole]
 }
 
 /// The carving with all that it would leave of a support's `outline` in slivers, thinner than a `line`: where a nearer support hides just

@@ -142,6 +142,25 @@ fn movements_and_distance_are_those_of_two_points_on_a_ray() {
 }
 
 #[test]
+fn the_gap_beside_a_nearer_support_is_as_wide_as_a_printed_line() {
+    let seen = two_blocks(4.0);
+    let operand = || Operand::Relief {
+        sight: &seen.sight,
+        relief: &seen.relief,
+    };
+    let volume = |line: f64| {
+        let forest = carve(seen.sight.image.field, &[operand()], line).expect("a forest");
+        forest.whole.volume_mm3()
+    };
+    let [fine, usual, coarse] = [0.2, defaults::PRINTER.nozzle, 0.8].map(volume);
+    let (less, much_less) = (fine - usual, usual - coarse);
+    assert!(
+        less > 0.0 && (1.8..2.2).contains(&(much_less / less)),
+        "{less} {much_less}"
+    );
+}
+
+#[test]
 fn rays_at_the_solid_measure_what_the_closed_form_says() {
     let seen = two_blocks(4.0);
     let operand = Operand::Relief {
