@@ -1,20 +1,14 @@
-//! The carving in front of a relief: a frustum of the eye's rays. The only module that names `i_overlay`.
+//! The carving in front of a relief: a frustum of the eye's rays.
 
 use super::boolean::{Boolean, BooleanError};
 use super::sound::SPARE_MM;
-use crate::index::{CellId, PointId, SupportId};
+use crate::geom::rings::{Rings, common, joined, offset, simple, taken, widened};
+use crate::index::{CellId, SupportId};
 use crate::mesh::{TriMesh, without_spare_corners};
 use crate::relief::block;
 use crate::support::Slab;
 use crate::viewmap::ViewMap;
 use glam::{DVec2, DVec3};
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::simplify::SimplifyShape;
-use i_overlay::float::single::SingleFloatOverlay;
-use i_overlay::mesh::outline::offset::OutlineOffset;
-use i_overlay::mesh::style::{LineJoin, OutlineStyle};
-use std::collections::BTreeMap;
 
 /// Overlap of the carving's wider rim with the carving itself, millimetres: more than any bed width, or a fin is left between.
 const RIM_OVERLAP_MM: f64 = 0.05;
@@ -33,9 +27,6 @@ pub(crate) struct CarvingEdge {
     pub line: f64,
 }
 
-/// Closed rings in the image, millimetres at the support; outer ones counter-clockwise, holes clockwise.
-pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
-
 /// The solid to take out of `support`, a mesh, in front of its relief on `cells` (rising).
 pub(crate) fn hollow(
     map: &ViewMap,
@@ -45,7 +36,7 @@ pub(crate) fn hollow(
     edge: CarvingEdge,
 ) -> Result<Boolean, BooleanError> {
     let scale = map.plane.scale(slab.plane(map.plane.forward, 0.0));
-    let relief = simple(outlines(map, cells, scale));
+    let relief = simple(map.outlines(cells, scale));
     let carved = shape(map, slab, support, &relief, edge, scale);
     let near = offset(&relief, 2.0 * edge.line);
     let rings = without_fins(&carved, &outline(map, mesh, scale), &near, edge.line);
@@ -77,7 +68,7 @@ pub(crate) fn shell_hollow(
         .copied()
         .filter(|c| behind.dropped.binary_search(c).is_err())
         .collect();
-    let relief = simple(outlines(map, &kept, scale));
+    let relief = simple(map.outlines(&kept, scale));
     let rings = shape(map, slab, support, &relief, edge, scale);
     let behind = Boolean::new(&without_spare_corners(behind.mesh, SPARE_MM))?;
     frustum(map, slab, &rings, scale, beyond(1.0))?.minus(&behind)
@@ -104,7 +95,7 @@ fn frustum(
     })
 }
 
-/// The part of the image that is carved: narrower than the relief where its support goes on beside it, wider where it ends or is
+/// The part of the image that is carved, millimetres at the support: narrower than the relief where its support goes on beside it, wider where it ends or is
 /// hidden. A shell is carved to different depths; what of it is hidden stays.
 fn shape(
     map: &ViewMap,
@@ -119,14 +110,14 @@ fn shape(
         None => false,
     };
     let seen: Vec<CellId> = CellId::all(map.cells.len()).filter(goes_on).collect();
-    let seen = outlines(map, &seen, scale);
+    let seen = map.outlines(&seen, scale);
     // Beyond the mapped window supports may go on: nothing is carved there.
     let goes_on = simple([seen, beyond_window(map, scale, 2.0 * edge.line)].concat());
     let rim = taken(
         &offset(relief, edge.line),
         &offset(&goes_on, -RIM_OVERLAP_MM),
     );
-    flat(offset(relief, -edge.bed).overlay(&rim, OverlayRule::Union, FillRule::NonZero))
+    joined(&offset(relief, -edge.bed), &rim)
 }
 
 /// A frame `width` millimetres wide around what the view map covers.
@@ -153,14 +144,10 @@ fn without_fins(carved: &Rings, outline: &Rings, near: &Rings, line: f64) -> Rin
     let standing = taken(outline, &offset(carved, -PART_MM));
     let stout = widened(&offset(&standing, -line / 2.0), line / 2.0 + PART_MM);
     let fins = taken(&standing, &stout);
-    let fins = flat(fins.overlay(near, OverlayRule::Intersect, FillRule::NonZero));
+    let fins = common(&fins, near);
     // So that nothing is left between a fin and the carving, nor outside of it.
     let fins = offset(&fins, RIM_OVERLAP_MM);
-    flat(carved.overlay(&fins, OverlayRule::Union, FillRule::NonZero))
-}
-
-fn taken(from: &Rings, what: &Rings) -> Rings {
-    flat(from.overlay(what, OverlayRule::Difference, FillRule::NonZero))
+    joined(carved, &fins)
 }
 
 /// What the eye would see of a mesh if nothing stood before it.
@@ -174,55 +161,4 @@ fn outline(map: &ViewMap, mesh: &TriMesh, scale: f64) -> Rings {
         ((b - a).perp_dot(c - a) > 0.0).then(|| [a, b, c].map(|p| p.to_array()).to_vec())
     });
     simple(seen.collect())
-}
-
-/// The boundary of a set of cells (rising) as closed rings.
-fn outlines(map: &ViewMap, cells: &[CellId], scale: f64) -> Rings {
-    let mut next: BTreeMap<PointId, Vec<PointId>> = BTreeMap::new();
-    for c in cells {
-        let cell = &map.cells[*c];
-        for k in 0..3 {
-            if map.neighbours[*c][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
-                next.entry(cell.corners[k])
-                    .or_default()
-                    .push(cell.corners[(k + 1) % 3]);
-            }
-        }
-    }
-    let mut rings = Vec::new();
-    while let Some((&start, _)) = next.first_key_value() {
-        let mut ring = Vec::new();
-        let mut at = start;
-        while let Some(ends) = next.get_mut(&at) {
-            let to = ends.pop();
-            if ends.is_empty() {
-                next.remove(&at);
-            }
-            ring.push((map.points[at] * scale).to_array());
-            at = to.unwrap_or(start);
-        }
-        rings.push(ring);
-    }
-    rings
-}
-
-fn flat(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> Rings {
-    shapes.into_iter().flatten().collect()
-}
-
-/// Resolves rings that touch or cross themselves.
-fn simple(rings: Rings) -> Rings {
-    flat(rings.simplify_shape(FillRule::NonZero))
-}
-
-/// Rings moved outwards by `by` millimetres (inwards if negative), corners bevelled.
-pub(crate) fn offset(rings: &Rings, by: f64) -> Rings {
-    flat(rings.outline(&OutlineStyle::new(by).line_join(LineJoin::Bevel)))
-}
-
-/// Rings moved outwards by `by` millimetres everywhere, sharp corners kept.
-pub(crate) fn widened(rings: &Rings, by: f64) -> Rings {
-    /// Corners sharper than this are cut off: their tips would be very far out.
-    const SHARPEST: f64 = 0.1 * std::f64::consts::PI;
-    flat(rings.outline(&OutlineStyle::new(by).line_join(LineJoin::Miter(SHARPEST))))
 }

@@ -16,7 +16,7 @@
 pub(crate) mod boolean;
 mod brace;
 mod forest;
-pub(crate) mod hollow;
+mod hollow;
 mod operand;
 mod piece;
 mod sound;

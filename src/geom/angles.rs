@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+/// An arc-minute in radians.
+pub const ARCMIN: f64 = std::f64::consts::PI / (180.0 * 60.0);
 /// Square arc-minutes in a steradian.
 pub const SQUARE_ARCMIN: f64 =
     (180.0 * 60.0 / std::f64::consts::PI) * (180.0 * 60.0 / std::f64::consts::PI);

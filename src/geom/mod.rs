@@ -6,9 +6,10 @@ mod angles;
 mod image_plane;
 mod inscribed;
 mod planar;
+pub mod rings;
 mod spatial;
 
-pub use angles::{SQUARE_ARCMIN, half_angle, parallax, solid_angle};
+pub use angles::{ARCMIN, SQUARE_ARCMIN, half_angle, parallax, solid_angle};
 pub use image_plane::{FAR_MM, ImagePlane, READING_MM};
 pub use inscribed::{Circle, inscribed};
 pub use planar::{

@@ -5,7 +5,7 @@
 //! wider than pegs by the clearance all round, and as deep: the peg stands on the socket's floor.
 
 use crate::carve::boolean::{Boolean, BooleanError};
-use crate::carve::hollow::{Rings, widened};
+use crate::geom::rings::{Rings, widened};
 use crate::geom::{Circle, inscribed};
 use crate::support::{Support, SupportKind};
 use glam::DVec2;

@@ -1,9 +1,11 @@
 //! The view map itself: cells of an eye's image, and what is seen in each.
 
 use crate::geom::ImagePlane;
+use crate::geom::rings::Rings;
 use crate::index::{CellId, FaceId, FacetId, PointId, SupportId};
 use crate::mesh::DisjointSets;
 use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// One triangle of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +61,36 @@ impl ViewMap {
         all()
             .filter(|c| inside(*c) && sets.root(c.0) == c.0)
             .count()
+    }
+
+    /// The boundary of a set of cells (rising) as closed rings, `scale` times as large as the image.
+    pub fn outlines(&self, cells: &[CellId], scale: f64) -> Rings {
+        let mut next: BTreeMap<PointId, Vec<PointId>> = BTreeMap::new();
+        for c in cells {
+            let cell = &self.cells[*c];
+            for k in 0..3 {
+                if self.neighbours[*c][k].is_none_or(|n| cells.binary_search(&n).is_err()) {
+                    next.entry(cell.corners[k])
+                        .or_default()
+                        .push(cell.corners[(k + 1) % 3]);
+                }
+            }
+        }
+        let mut rings = Vec::new();
+        while let Some((&start, _)) = next.first_key_value() {
+            let mut ring = Vec::new();
+            let mut at = start;
+            while let Some(ends) = next.get_mut(&at) {
+                let to = ends.pop();
+                if ends.is_empty() {
+                    next.remove(&at);
+                }
+                ring.push((self.points[at] * scale).to_array());
+                at = to.unwrap_or(start);
+            }
+            rings.push(ring);
+        }
+        rings
     }
 
     /// Mean of three image points.

@@ -15,7 +15,7 @@ const OWNERS: [(&str, &[&str]); 15] = [
     ("clarabel", &["mimic/solve.rs"]),
     ("faer", &["mimic/dual/factor.rs"]),
     ("manifold_rust", &["carve/boolean.rs"]),
-    ("i_overlay", &["carve/hollow.rs"]),
+    ("i_overlay", &["geom/rings.rs"]),
     ("tobj", &["formats/read_obj.rs"]),
     ("zip", &["formats/"]),
     ("quick_xml", &["formats/"]),
