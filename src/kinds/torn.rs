@@ -27,7 +27,7 @@ impl<'a> TornSurface<'a> {
         steps: &StepOptions,
         sight: &'a Sight<'a>,
     ) -> Result<Self, SolveError> {
-        let torn = torn(steps, options, sight).map_err(SolveError::without_row)?;
+        let torn = torn(steps, options, sight).map_err(SolveError::without_rows)?;
         Ok(Self {
             relief: relief(&torn.sight, &torn.depths),
             sight,

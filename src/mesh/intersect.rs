@@ -5,9 +5,10 @@
 //! a vertex that lies exactly on a foreign face counts and one a rounding error above it does not.
 //! Faces of zero area and faces with the same three vertices are left out: they are other defects.
 
-use crate::index::FaceId;
+use crate::index::{ComponentId, FaceId};
 use crate::mesh::boxes::{BoxTree, LeafId};
 use crate::mesh::fans::plain_fans;
+use crate::mesh::topology::{DisjointSets, face_components};
 use crate::mesh::tri_mesh::TriMesh;
 use crate::mesh::turns::{projection_axis, turn2, turn3};
 use glam::DVec3;
@@ -41,6 +42,21 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
     }
     pairs.sort_unstable();
     pairs
+}
+
+/// For each face the number of its object: components that share edges, cut or touch each other are one, numbered by their first face.
+pub fn face_objects(mesh: &TriMesh) -> Vec<ComponentId> {
+    let component = face_components(mesh);
+    let Some(last) = component.iter().max().filter(|c| c.0 > 0) else {
+        return component;
+    };
+    let mut sets = DisjointSets::new(last.at() + 1);
+    for pair in self_intersections(mesh, usize::MAX) {
+        let [a, b] = pair.map(|f| component[f].0);
+        sets.join(a, b);
+    }
+    let number = sets.numbers().1;
+    component.iter().map(|c| ComponentId(number[*c])).collect()
 }
 
 /// A mesh whose faces are compared.

@@ -22,7 +22,7 @@ pub mod weld;
 
 pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar, picked};
 pub use defects::{Defect, DefectKind, check};
-pub use intersect::self_intersections;
+pub use intersect::{face_objects, self_intersections};
 pub use resolve::{Resolved, Resolving, Tangled, resolved};
 pub use shells::without_cavities;
 pub use simplify::{Simplified, simplified};

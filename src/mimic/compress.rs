@@ -60,9 +60,11 @@ pub(crate) fn compressed(
         both.map(|(z, b)| (1.0 - k) * z + k * b).collect()
     };
     let share =
-        smallest(|k| layers.scales(&mix(k)).is_some()).ok_or(SolveError::Infeasible(None))?;
+        smallest(|k| layers.scales(&mix(k)).is_some()).ok_or(SolveError::Infeasible(Vec::new()))?;
     let s = mix(share);
-    let of_support = layers.scales(&s).ok_or(SolveError::Infeasible(None))?;
+    let of_support = layers
+        .scales(&s)
+        .ok_or(SolveError::Infeasible(Vec::new()))?;
     Ok(Depths {
         mu: layers.slots.iter().map(|slot| of_support[*slot]).collect(),
         s,

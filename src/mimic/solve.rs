@@ -19,6 +19,9 @@ const MAX_ITERATIONS: u32 = 200;
 /// have four digits, and the certificate refuses them.
 const CONIC_TOLERANCE: f64 = 1e-11;
 
+/// Rows with a smaller share in a contradiction than this, of the largest, are rounding: true shares differ by the weights of corners.
+const MATTERS: f64 = 1e-3;
+
 /// How a program was solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -66,18 +69,18 @@ pub struct Solution {
 /// Why there is no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// The rows contradict each other; the one with the largest share in the contradiction.
+    /// Rows contradict each other: those that matter, by falling share in the contradiction.
     #[error("no depths satisfy all bounds")]
-    Infeasible(Option<RowKind>),
+    Infeasible(Vec<RowKind>),
     #[error("the solver stopped without a solution: {0}")]
     Unsolved(String),
 }
 
 impl SolveError {
-    /// The same without the row it names.
-    pub fn without_row(self) -> Self {
+    /// The same without the rows it names.
+    pub fn without_rows(self) -> Self {
         match self {
-            Self::Infeasible(_) => Self::Infeasible(None),
+            Self::Infeasible(_) => Self::Infeasible(Vec::new()),
             other => other,
         }
     }
@@ -119,7 +122,7 @@ fn solve_where(
     let blocks = blocks(program);
     let count = blocks.len();
     let todo: Vec<ProgramBlock> = blocks.into_iter().filter(wanted).collect();
-    let solved: Vec<SolvedBlock> = todo.par_iter().map(solve_block).collect::<Result<_, _>>()?;
+    let solved = all_solved(todo.par_iter().map(solve_block).collect())?;
     solution.z.resize(program.rows.len(), 0.0);
     for (block, part) in todo.iter().zip(&solved) {
         let place = |to: &mut [f64], at: &[usize], from: &[f64]| {
@@ -139,6 +142,25 @@ fn solve_where(
         ..Solved::default()
     };
     Ok(solution)
+}
+
+/// All blocks, or what is wrong with them: the contradictions of all, or else the first failure, whatever the thread count.
+fn all_solved(
+    results: Vec<Result<SolvedBlock, SolveError>>,
+) -> Result<Vec<SolvedBlock>, SolveError> {
+    let (mut solved, mut contradicting, mut failed) = (Vec::new(), Vec::new(), None);
+    for result in results {
+        match result {
+            Ok(block) => solved.push(block),
+            Err(SolveError::Infeasible(rows)) => contradicting.push(rows),
+            Err(other) => failed = failed.or(Some(other)),
+        }
+    }
+    match (contradicting.is_empty(), failed) {
+        (false, _) => Err(SolveError::Infeasible(contradicting.concat())),
+        (true, Some(error)) => Err(error),
+        (true, None) => Ok(solved),
+    }
 }
 
 /// The solution of one block.
@@ -229,8 +251,13 @@ fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
             iterations: solution.iterations,
         }),
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
-            let worst = (0..z.len()).max_by(|i, j| z[*i].abs().total_cmp(&z[*j].abs()));
-            Err(SolveError::Infeasible(worst.map(|i| program.rows[i].kind)))
+            let mut shares: Vec<usize> = (0..z.len()).collect();
+            shares.sort_by(|i, j| z[*j].abs().total_cmp(&z[*i].abs()));
+            let least = shares.first().map_or(0.0, |i| MATTERS * z[*i].abs());
+            let mattering = shares.into_iter().filter(|i| z[*i].abs() > least);
+            Err(SolveError::Infeasible(
+                mattering.map(|i| program.rows[i].kind).collect(),
+            ))
         }
         other => Err(SolveError::Unsolved(format!(
             "{other:?} after {} iterations",

@@ -24,10 +24,8 @@ const CLOSED: f64 = 1.5;
 /// Weights that differ by less belong to the same point: rounding of image coordinates.
 const SHARED: f64 = 1e-3;
 
-/// The target cut along outlines and tear lines, with the view map that refers to it.
+/// How a target is cut along outlines and tear lines.
 pub(crate) struct Cut {
-    pub target: Target,
-    pub map: ViewMap,
     /// The target's vertex at every vertex of the cut mesh.
     pub vertices: Vec<VertexId>,
     /// Vertices of the cut mesh at every patch's corners.
@@ -38,10 +36,12 @@ pub(crate) struct Cut {
     start: Vec<f64>,
     steps: Vec<Step>,
     ties: Vec<Tie>,
+    /// Corners of two patches at one vertex, for all patches that meet along a seam.
+    pairs: Vec<(Corner, Corner)>,
 }
 
 /// A corner of a patch.
-type Corner = (PatchId, u8);
+pub(crate) type Corner = (PatchId, u8);
 
 indices! {
     /// A corner among those of all patches.
@@ -49,8 +49,15 @@ indices! {
 }
 
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
-/// allowed, or in the wrong order, so that the program has a solution to begin with.
-pub(crate) fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_mm: f64) -> Cut {
+/// allowed, in the wrong order, or `closed`, so that the program has a solution to begin with. Gives
+/// the cut target with the view map that refers to it.
+pub(crate) fn cut(
+    image: &Image,
+    patches: &Patches,
+    field: &PatchDepths,
+    least_mm: f64,
+    closed: &[[Corner; 2]],
+) -> (Target, ViewMap, Cut) {
     let Image { target, map, .. } = image;
     let pairs = corner_pairs(target, patches);
     let vertex = |c: Corner| vertex(target, patches, c);
@@ -60,6 +67,9 @@ pub(crate) fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_m
             && far - near <= highest(patches, a, b)
     };
     let mut bundles = Bundles::new(field);
+    for [a, b] in closed {
+        bundles.put_together(index(*a), index(*b));
+    }
     bundles.join(&pairs, printable);
     while bundles.join_disordered(patches, &pairs) {
         bundles.join(&pairs, printable);
@@ -78,16 +88,17 @@ pub(crate) fn cut(image: &Image, patches: &Patches, field: &PatchDepths, least_m
     for (cell, patch) in map.cells.iter_mut().zip(&patches.of_cell) {
         cell.face = patch.map(|p| FaceId(p.0));
     }
-    Cut {
-        target: target.cut(mesh, &vertices),
-        map,
+    let cut_target = target.cut(mesh, &vertices);
+    let cut = Cut {
         orders: orders(patches, &corners),
+        pairs,
         ties: ties(patches, &corners, &start, CLOSED * least_mm / patches.depth),
         vertices,
         corners,
         start,
         steps,
-    }
+    };
+    (cut_target, map, cut)
 }
 
 /// The lowest step at a vertex of the cut `target`, millimetres of depth.
@@ -98,6 +109,20 @@ pub(crate) fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Opt
 }
 
 impl Cut {
+    /// The corners that the steps with these numbers part.
+    pub(crate) fn parted_by(&self, steps: &[usize]) -> Vec<[Corner; 2]> {
+        let of = |(p, k): Corner| self.corners[p][usize::from(k)];
+        let mut ends: Vec<[VertexId; 2]> = steps
+            .iter()
+            .filter_map(|i| self.steps.get(*i))
+            .flat_map(|s| [[s.near, s.far], [s.far, s.near]])
+            .collect();
+        ends.sort_unstable();
+        let parted = |(a, b): &&(Corner, Corner)| ends.binary_search(&[of(*a), of(*b)]).is_ok();
+        let pairs = self.pairs.iter().filter(parted);
+        pairs.map(|(a, b)| [*a, *b]).collect()
+    }
+
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.
     /// Patches that are `absorbed` hardly count.
     pub(crate) fn opening(

@@ -50,6 +50,8 @@ pub struct StepSummary {
     pub tolerance_mm: Option<f64>,
     /// Seen area of strips too narrow to print that were given to a neighbour.
     pub absorbed_mm2: f64,
+    /// How often tears were made dearer because their bounds contradicted each other.
+    pub given_up: usize,
 }
 
 /// The number of tear lines: pairs of pieces that meet in a step.

@@ -16,6 +16,9 @@ indices! {
     PatchId
 }
 
+/// Points of the image with this weight of a corner are that corner.
+const AT_CORNER: f64 = 1.0 - 1e-6;
+
 /// The part of a face that is seen on one group.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
@@ -26,7 +29,7 @@ pub(crate) struct Patch {
     pub seen_mm2: f64,
     /// `sum over k of tilt_k (y_(k+1) - y_(k+2))^2` is what the patch costs: its seen area times `tan^2 theta`, square millimetres.
     pub tilt: [f64; 3],
-    /// Log relief depths over the model's that the layer allows at each corner's own ray.
+    /// Log relief depths over the model's that the layer, or an outline, allows at each corner's own ray.
     pub room: [(f64, f64); 3],
     /// Log relief depths that are allowed for the whole patch if it is the same everywhere; empty where the patch is too steep.
     pub even: (f64, f64),
@@ -108,8 +111,6 @@ pub(crate) struct Patches {
     pub width: f64,
     /// Mean depth of the seen model, millimetres.
     pub depth: f64,
-    /// Millimetres that a unit of the image measures there.
-    pub scale: f64,
     /// Of the image plane.
     pub focal: f64,
 }
@@ -148,7 +149,6 @@ impl Patches {
             patches,
             of_cell,
             depth,
-            scale,
             focal: map.plane.focal,
         }
     }
@@ -262,6 +262,18 @@ fn add_cell(patch: &mut Patch, sight: &Sight, c: CellId) {
         let (near, far) = image.layer_in(&slab, c, k);
         let (lower, upper) = ((near / z).ln(), (far / z).ln());
         patch.even = (patch.even.0.max(lower), patch.even.1.min(upper));
+        // Where an outline lies on its support, a corner has less room than the layer. Outlines on two planes of a crooked support may leave
+        // none in common: then the solver is asked.
+        if let Some(corner) = anchor.weights.iter().position(|w| *w > AT_CORNER)
+            && slab.draws()
+            && map.cells[c].outline[k]
+        {
+            let (lo, hi) = patch.room[corner];
+            let common = (lo.max(lower), hi.min(upper));
+            if common.0 <= common.1 {
+                patch.room[corner] = common;
+            }
+        }
         patch.points.push(PatchPoint {
             weights: anchor.weights,
             lower,

@@ -1,4 +1,8 @@
 //! Tears a view's surface and finds its depths: price by price, until there are few enough tears.
+//!
+//! Where a step has no room (an outline that lies on its support leaves a tenth of a millimetre) the surface must hang together. The bounds
+//! of all the points around decide that, so the solver is asked: its proof that there are no depths names the steps in contradiction with
+//! the bounds. Those are closed, and it is asked again. Every round closes at least one of finitely many steps.
 
 use super::cut::{cut, lowest_mm};
 use super::fusion::{Functional, PatchDepths, Prices, pressed};
@@ -7,7 +11,7 @@ use super::options::StepOptions;
 use super::patches::{Patch, Patches};
 use super::thin;
 use crate::index::{FaceId, VertexId};
-use crate::mimic::{Depths, NormalOptions, SolveError, opened_depths};
+use crate::mimic::{Depths, NormalOptions, RowKind, SolveError, opened_depths};
 use crate::sight::Sight;
 use crate::viewmap::Image;
 use rayon::prelude::*;
@@ -41,8 +45,8 @@ pub fn torn<'a>(
     let image = &sight.image;
     let patches = Patches::new(&steps.limits, sight);
     let mut price = steps.price;
-    let mut rounds = 0;
-    loop {
+    let (mut rounds, mut given_up) = (0, 0);
+    'dearer: loop {
         let (y, absorbed) = tear(steps, options, price, image, &patches);
         let last = rounds == PRICE_ROUNDS;
         rounds += 1;
@@ -51,20 +55,33 @@ pub fn torn<'a>(
         if too_many(lines::count(&image.target, &patches, &y)) {
             continue;
         }
-        let cut = cut(image, &patches, &y, steps.limits.least_mm);
-        let opening = cut.opening(&patches, steps, &absorbed);
-        let orders = if options.ordering {
-            &cut.orders[..]
-        } else {
-            &[]
+        let mut closed = Vec::new();
+        let (cut, opening, torn, depths) = loop {
+            let (target, map, cut) = cut(image, &patches, &y, steps.limits.least_mm, &closed);
+            let opening = cut.opening(&patches, steps, &absorbed);
+            let orders = if options.ordering {
+                &cut.orders[..]
+            } else {
+                &[]
+            };
+            let torn = sight.cut(target, map);
+            match opened_depths(options, &torn, orders, &opening) {
+                Ok(depths) => break (cut, opening, torn, depths),
+                Err(SolveError::Infeasible(rows)) => {
+                    let without_room = cut.parted_by(&steps_among(&rows));
+                    if !without_room.is_empty() {
+                        closed.extend(without_room);
+                    } else if last {
+                        return Err(SolveError::Infeasible(rows));
+                    } else {
+                        // Limits that contradict each other: with fewer tears there are fewer of them.
+                        given_up += 1;
+                        continue 'dearer;
+                    }
+                }
+                Err(other) => return Err(other),
+            }
         };
-        let torn = sight.cut(cut.target, cut.map);
-        let depths = opened_depths(options, &torn, orders, &opening);
-        if !last && matches!(depths, Err(SolveError::Infeasible(_))) {
-            // Limits that contradict each other: with fewer tears there are fewer of them.
-            continue;
-        }
-        let depths = depths?;
         let given_away = patches.patches.iter().zip(&absorbed).filter(|(_, a)| **a);
         let absorbed_mm2 = given_away.map(|(p, _)| p.seen_mm2).sum();
         let (lines, summary) = lines(image, &patches, &cut.corners, &depths);
@@ -78,6 +95,7 @@ pub fn torn<'a>(
             summary: StepSummary {
                 lowest_mm: lowest_mm(&opening.steps, target, &depths),
                 absorbed_mm2,
+                given_up,
                 ..summary
             },
             vertices: cut.vertices,
@@ -86,6 +104,15 @@ pub fn torn<'a>(
             depths,
         });
     }
+}
+
+/// The numbers of the steps among rows.
+fn steps_among(rows: &[RowKind]) -> Vec<usize> {
+    let number = |row: &RowKind| match row {
+        RowKind::Step(i) => Some(*i as usize),
+        RowKind::Near(_) | RowKind::Far(_) | RowKind::Order(_) => None,
+    };
+    rows.iter().filter_map(number).collect()
 }
 
 /// The tears at a price, support by support, and which patches were given away because they were too narrow.
@@ -113,7 +140,7 @@ fn tear(
             let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);
             functional.descend(&mut y);
-            let narrowest = steps.narrowest_mm;
+            let narrowest = steps.narrowest_mm / image.map.plane.scale(patches.depth);
             let absorbed = thin::absorb_thin(image, &functional, &cells, &mut y, narrowest);
             (y, absorbed)
         })

@@ -20,21 +20,21 @@ const TEAR_MM: f64 = 0.2;
 /// Merging strips may leave others behind; a third round rarely finds any.
 const ROUNDS: usize = 3;
 
-/// Gives every strip narrower than `narrowest_mm` to a neighbour; which patches of the support were given away.
+/// Gives every strip narrower than `narrowest`, as the image measures, to a neighbour; which patches of the support were given away.
 pub(crate) fn absorb_thin(
     image: &Image,
     functional: &Functional,
     cells: &[CellId],
     field: &mut PatchDepths,
-    narrowest_mm: f64,
+    narrowest: f64,
 ) -> Vec<bool> {
     let Image { target, map, .. } = image;
     let mut absorbed = vec![false; field.len()];
-    if narrowest_mm <= 0.0 || cells.is_empty() {
+    if narrowest <= 0.0 || cells.is_empty() {
         return absorbed;
     }
     let patches = functional.patches();
-    let raster = Raster::new(map, patches, cells, narrowest_mm / patches.scale);
+    let raster = Raster::new(map, patches, cells, narrowest);
     for _ in 0..ROUNDS {
         let pieces = functional.pieces(field);
         let thin = raster.thin(target, functional, &pieces);

@@ -88,6 +88,12 @@ impl<'a> SupportField<'a> {
         layer.is_some_and(|l| l.datum() == Datum::Surface)
     }
 
+    /// Whether outlines of models are to lie on any support.
+    pub(crate) fn holds_outlines(&self) -> bool {
+        let mut layers = self.supports.iter().filter_map(|s| s.layer);
+        layers.any(|layer| layer.hull)
+    }
+
     /// Top of the base, if there is one.
     pub fn base_top(&self) -> Option<f64> {
         self.supports.iter().find_map(|s| match s.kind {

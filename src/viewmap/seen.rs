@@ -8,7 +8,7 @@ use super::target::Target;
 use super::thin::merge_thin;
 use crate::geom::{ImagePlane, barycentric};
 use crate::index::{CellId, ComponentId, FaceId, FacetId, PointId};
-use crate::mesh::face_components;
+use crate::mesh::{face_components, face_objects};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -51,7 +51,12 @@ pub fn view_map(
     }
     map.doubtful_sr = doubtful.iter().map(|c| map.solid_angle(*c)).sum();
     merge_thin(&mut map, THINNEST_MM / plane.scale(mean(&target.depth)));
-    mark_outlines(&mut map, &face_components(&target.mesh));
+    // Parts that overlap, as kits and game models have them, are one object with one outline.
+    let objects = match supports.holds_outlines() {
+        true => face_objects(&target.mesh),
+        false => face_components(&target.mesh),
+    };
+    mark_outlines(&mut map, &objects);
     Ok(map)
 }
 
@@ -145,7 +150,7 @@ impl Looking<'_> {
     }
 }
 
-/// Marks the corners of cells that lie on sides where the image of their component ends.
+/// Marks the corners of cells that lie on sides where the image of their component (or object) ends.
 fn mark_outlines(map: &mut ViewMap, component: &[ComponentId]) {
     let of = |cell: &Cell| cell.face.map(|f| component[f]);
     let mut marked: Vec<(PointId, ComponentId)> = Vec::new();

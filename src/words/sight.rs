@@ -59,7 +59,11 @@ pub fn split(view: &str, supports: &[Support], found: MustBeCut) -> Diagnostic {
 /// Why there are no depths: the support and the bounds in conflict.
 pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
     let (view, groups) = (sight.name(), &sight.groups);
-    let SolveError::Infeasible(Some(kind)) = error else {
+    let worst = match error {
+        SolveError::Infeasible(rows) => rows.first(),
+        SolveError::Unsolved(_) => None,
+    };
+    let Some(kind) = worst else {
         return Diagnostic::error(format!("view \"{view}\": {error}"))
             .help("thicker layers (`front`, `back`) make it easier; `check` tells whether the models are sound");
     };

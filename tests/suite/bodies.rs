@@ -83,6 +83,49 @@ fn report(build: &Build) -> serde_json::Value {
     serde_json::from_slice(&file.expect("a report").bytes).expect("JSON")
 }
 
+/// Two balls before a plate whose outlines lie on it, built with these steps.
+fn two_balls(second: DVec3, steps: &str) -> serde_json::Value {
+    let text = format!(
+        "(models: [(name: \"m\", file: \"balls.obj\", place: Fit(largest: 70, at: (0, 0, 10)))],\n\
+         views: [(name: \"m\", eye: (0, -350, 50), models: [\"m\"])],\n\
+         supports: [Plate(width: 100, height: 100, depth: (front: 6, outline: OnSupport))],\n\
+         energy: Normal(steps: {steps}),\n\
+         output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))"
+    );
+    let read = |name: &str| match name {
+        "balls.obj" => {
+            let mut both = ball(DVec3::ZERO, 20.0, 16);
+            both.append(&ball(second, 16.0, 14));
+            Ok(obj(&both))
+        }
+        _ => Err(Diagnostic::error(format!("no file {name}"))),
+    };
+    let scene = scene::resolve(&text, &read).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let report = report(&built(&scene.value));
+    report["views"][0].clone()
+}
+
+/// Where the nearer ball passes before the other, tears end at an outline that leaves them no room. The surface is torn all the same,
+/// but for there.
+#[test]
+fn tears_that_end_at_outlines_without_room_close_there() {
+    let view = two_balls(DVec3::new(22.0, -40.0, 6.0), "Allowed()");
+    let lines = view["steps"]["lines"].as_u64();
+    assert!(lines.is_some_and(|n| n > 20), "{lines:?} tears");
+    let error = view["normal_error_deg"]["mean"].as_f64();
+    assert!(error.is_some_and(|deg| deg < 4.0), "{error:?} degrees");
+}
+
+/// Parts that overlap are one object with one outline: the seam between them lies where it must, in front of the plate.
+#[test]
+fn parts_that_overlap_have_one_outline() {
+    let view = two_balls(DVec3::new(22.0, -8.0, 6.0), "Never");
+    let certificate = &view["certificate"];
+    assert_eq!(certificate["order_inversions"], 0);
+    let front = certificate["relief_front_mm"].as_f64();
+    assert!(front.is_some_and(|mm| mm > 5.0), "{front:?} mm");
+}
+
 /// How far the forest stands before the bare support (negative: behind it) on rays at the ball, millimetres along the rays.
 fn offsets(scene: &Scene, mesh: &TriMesh) -> Vec<f64> {
     let view = &scene.views[0];

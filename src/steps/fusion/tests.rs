@@ -163,7 +163,6 @@ impl TriangleSheet {
             rims: Vec::new(),
             width: (BACK / (BACK - THICK)).ln(),
             depth: BACK,
-            scale: BACK,
             focal: 1.0,
         }
     }
