@@ -1,11 +1,18 @@
-//! Finds the groups: connected regions of cells on one part of a support.
+//! Finds the groups: connected regions of cells on one part of a support, as far as its layer is connected too.
+//!
+//! A layer that follows the surface jumps where the support hides a part of itself, behind a ridge or a fold. There the image is
+//! connected, but nothing that lies in the layer is: no scale serves both sides, and no face fits into both.
 
 use super::bounds::bounds;
 use super::group::{Group, Groups};
 use crate::index::{CellId, ComponentId, GroupId, SupportId};
 use crate::mesh::face_components;
 use crate::support::Slab;
-use crate::viewmap::{Image, ViewMap};
+use crate::viewmap::Image;
+
+/// A layer whose depth differs by more than this on one ray has jumped, millimetres. Facets that meet in an edge differ by the rounding of
+/// image points, a thousandth of it; what jumps by less is thinner than any layer.
+const JUMP_MM: f64 = 0.05;
 
 /// A support that a layer cuts through or leaves too thin, as one eye sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +40,7 @@ pub fn groups(image: &Image) -> Result<Groups, Vec<ThinSupport>> {
         Some((support, part, component[cell.face?]))
     };
     let labels: Vec<Option<Label>> = CellId::all(map.cells.len()).map(carries).collect();
-    let (groups, of_cell) = regions(map, &labels);
+    let (groups, of_cell) = regions(image, &slabs, &labels);
     let groups = Groups {
         groups,
         of_cell,
@@ -68,7 +75,7 @@ pub fn without(groups: &Groups, lost: &[CellId], image: &Image) -> Groups {
         Some((group.support, group.part, group.component))
     };
     let labels: Vec<Option<Label>> = CellId::all(image.map.cells.len()).map(label).collect();
-    let (found, of_cell) = regions(&image.map, &labels);
+    let (found, of_cell) = regions(image, &groups.slabs, &labels);
     let left = Groups {
         groups: found,
         of_cell,
@@ -82,8 +89,31 @@ pub fn without(groups: &Groups, lost: &[CellId], image: &Image) -> Groups {
 /// Support, part of it, component of the model.
 type Label = (SupportId, u32, ComponentId);
 
+/// Whether the layer of the support in a cell goes on across its side `k` into cell `next`.
+fn goes_on(image: &Image, slab: &Slab, c: CellId, k: usize, next: CellId) -> bool {
+    if !slab.is_shell() {
+        return true;
+    }
+    let (field, map) = (image.field, &image.map);
+    let [a, b] = [k, (k + 1) % 3].map(|i| map.points[map.cells[c].corners[i]]);
+    let direction = map.plane.direction((a + b) / 2.0);
+    let depth = |cell: CellId| {
+        let facet = map.cells[cell].facet?;
+        Some(field.facet_depth(facet, map.plane.eye, direction))
+    };
+    match (depth(c), depth(next)) {
+        (Some(here), Some(there)) => (here - there).abs() * direction.length() < JUMP_MM,
+        _ => true,
+    }
+}
+
 /// Flood fill over equal labels.
-fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<GroupId>>) {
+fn regions(
+    image: &Image,
+    slabs: &[Option<Slab>],
+    labels: &[Option<Label>],
+) -> (Vec<Group>, Vec<Option<GroupId>>) {
+    let map = &image.map;
     let mut of_cell = vec![None; labels.len()];
     let mut groups = Vec::new();
     for seed in CellId::all(labels.len()) {
@@ -97,8 +127,11 @@ fn regions(map: &ViewMap, labels: &[Option<Label>]) -> (Vec<Group>, Vec<Option<G
         of_cell[seed] = Some(id);
         while let Some(c) = stack.pop() {
             cells.push(c);
-            for n in map.neighbours[c].iter().flatten() {
-                if of_cell[*n].is_none() && labels[*n] == labels[seed] {
+            for (k, n) in map.neighbours[c].iter().enumerate() {
+                let Some(n) = n else { continue };
+                let is_open = of_cell[*n].is_none() && labels[*n] == labels[seed];
+                let slab = slabs[support].as_ref().filter(|_| is_open);
+                if slab.is_some_and(|slab| goes_on(image, slab, c, k, *n)) {
                     of_cell[*n] = Some(id);
                     stack.push(*n);
                 }
