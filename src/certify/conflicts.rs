@@ -7,6 +7,7 @@
 //!
 //! Cells are sampled in equal parts, so a thing in the way counts to within a part of a cell: half a millimetre at most.
 
+use super::coverage::is_as_wide_as;
 use super::point::without_minus_zero;
 use crate::bvh::Bvh;
 use crate::carve::Forest;
@@ -14,26 +15,27 @@ use crate::geom::SQUARE_ARCMIN;
 use crate::index::{CellId, FaceId, SupportId, ViewId};
 use crate::relief::Relief;
 use crate::sight::Sight;
+use crate::support::SUNK_MM;
 use crate::viewmap::SupportField;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A ray that meets the solid nearer than this to the plane of its cell's relief meets the relief, millimetres. Rounding to
-/// f32, mending and levelled steps leave 0.02 mm on real builds; anything that could be seen stands out by far more.
-pub const ON_RELIEF_MM: f64 = 0.05;
-/// Edges of reliefs are bedded in their supports and lapped behind others by hundredths of a millimetre: a ray that meets the
-/// relief if moved sideways by up to this much is only disturbed by such a seam, millimetres.
-pub const SEAM_MM: f64 = 0.1;
+/// f32, mending and levelled steps leave 0.02 mm on real builds, and an outline may lie [`SUNK_MM`] inside its support; anything that
+/// could be seen stands out by far more.
+pub const ON_RELIEF_MM: f64 = SUNK_MM + 0.02;
 /// Disturbances of a smaller share of the models are hairs at edges: summed, not listed. Sound builds leave up to 1e-4 of all
 /// together.
 pub const DISTURBED_SHARE: f64 = 1e-4;
+/// Whatever the models' size: what the eye resolves, square arc-minutes.
+const SPECK_ARCMIN2: f64 = 1.0;
 /// Sides of the parts a cell is sampled in, millimetres; and the most parts along a side.
 const PART_MM: f64 = 0.5;
 const MOST_PARTS: usize = 16;
 /// Hits of two meshes of the same solid nearer than this are hits of one surface, millimetres: mending moves them by less.
 const SAME_MM: f64 = 0.01;
-/// Directions in which a disturbed ray is moved, and shares of [`SEAM_MM`]: strips of relief may be narrower than it.
+/// Directions in which a disturbed ray is moved, and shares of half a line: strips of relief may be narrower than it.
 const AROUND: usize = 8;
 const SHARES: [f64; 3] = [0.25, 0.5, 1.0];
 
@@ -84,6 +86,16 @@ pub struct Finished<'a> {
     whole: &'a Bvh,
     reliefs: Vec<Option<Bvh>>,
     names: Vec<&'a str>,
+    making: Sharpness,
+}
+
+/// What is too fine to be made, and what is too fine to be seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Sharpness {
+    /// Width of a printed line, millimetres.
+    pub line: f64,
+    /// Arc-minutes.
+    pub seen: f64,
 }
 
 impl<'a> Finished<'a> {
@@ -93,6 +105,7 @@ impl<'a> Finished<'a> {
         whole: &'a Bvh,
         field: &'a SupportField<'a>,
         names: Vec<&'a str>,
+        making: Sharpness,
     ) -> Self {
         let of_view = |s: &Option<crate::mesh::Solid>| s.as_ref().map(|s| Bvh::new(s.mesh()));
         Self {
@@ -100,6 +113,7 @@ impl<'a> Finished<'a> {
             whole,
             reliefs: forest.reliefs.par_iter().map(of_view).collect(),
             names,
+            making,
         }
     }
 }
@@ -118,6 +132,9 @@ struct Miss {
 
 /// Casts rays through all of a view's cells that carry a relief, but for those `given_up` (rising) by the solids. `own` is the
 /// view's index.
+///
+/// Edges of reliefs are bedded in their supports and lapped behind others, and no printer makes a sliver thinner than its line: a ray
+/// that meets the relief if moved sideways by up to half a line of [`Sharpness`] is not disturbed. What is disturbed nowhere as wide as an eye resolves is summed and not listed.
 pub fn sighted(
     sight: &Sight,
     own: ViewId,
@@ -134,15 +151,15 @@ pub fn sighted(
         .par_iter()
         .flat_map_iter(|cell| cell.misses(sight, own, finished))
         .collect();
-    let mut found = gathered(&misses, finished);
+    let mut found = gathered(&misses, sight, finished);
     let seen_sr: f64 = (sight.image.map.all())
         .filter(|(_, cell)| cell.face.is_some())
         .map(|(c, _)| sight.image.map.solid_angle(c))
         .sum();
-    let least = DISTURBED_SHARE * seen_sr * SQUARE_ARCMIN;
+    let least = (DISTURBED_SHARE * seen_sr * SQUARE_ARCMIN).max(SPECK_ARCMIN2);
     let small = found.disturbances.extract_if(.., |d| d.arcmin2 < least);
     // Nothing at all sums to -0.
-    found.small_arcmin2 = small.map(|d| d.arcmin2).sum::<f64>() + 0.0;
+    found.small_arcmin2 += small.map(|d| d.arcmin2).sum::<f64>() + 0.0;
     found.rays = cells.iter().map(|c| c.parts * c.parts).sum();
     let of_model = |faces: std::ops::Range<FaceId>| {
         let lost = misses.iter().filter(|m| {
@@ -156,15 +173,22 @@ pub fn sighted(
 }
 
 /// Sums over rays with the same trouble.
-fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
+fn gathered(misses: &[Miss], sight: &Sight, finished: &Finished) -> Sighted {
     let mut troubled: Vec<&Miss> = misses.iter().filter(|m| m.kind.is_some()).collect();
     // Stable: rays of one kind stay in the order of cells.
     troubled.sort_by_key(|m| m.kind);
-    let mut disturbances = Vec::new();
+    let (mut disturbances, mut hairs) = (Vec::new(), 0.0);
     for group in troubled.chunk_by(|a, b| a.kind == b.kind) {
         let Some((trouble, view, support)) = group[0].kind else {
             continue;
         };
+        let arcmin2 = group.iter().map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN;
+        let mut cells: Vec<CellId> = group.iter().map(|m| m.cell).collect();
+        cells.dedup();
+        if !is_as_wide_as(&sight.image.map, &cells, finished.making.seen) {
+            hairs += arcmin2;
+            continue;
+        }
         let widest = group
             .iter()
             .fold(group[0], |w, m| if m.sr > w.sr { m } else { w });
@@ -172,13 +196,14 @@ fn gathered(misses: &[Miss], finished: &Finished) -> Sighted {
             trouble,
             with_view: view.map(|v| finished.names[v].to_owned()),
             support: support.map(|s| finished.field.supports[s].name.clone()),
-            arcmin2: group.iter().map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN,
+            arcmin2,
             place_mm: without_minus_zero(widest.place),
         });
     }
     let filled = misses.iter().filter(|m| m.kind.is_none());
     Sighted {
         disturbances,
+        small_arcmin2: hairs,
         filled_arcmin2: filled.map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN + 0.0,
         ..Sighted::default()
     }
@@ -297,7 +322,9 @@ impl SampledCell {
         let ways = (0..AROUND).flat_map(|k| SHARES.map(|share| (k, share)));
         ways.into_iter().any(|(k, share)| {
             let turn = std::f64::consts::TAU * k as f64 / AROUND as f64;
-            let beside = q + DVec2::from_angle(turn) * share * SEAM_MM / plane.scale(wanted);
+            let beside = q + DVec2::from_angle(turn) * share * finished.making.line
+                / 2.0
+                / plane.scale(wanted);
             let direction = plane.direction(beside);
             let weights = crate::geom::barycentric(a, b, c, beside).to_array();
             let hit = finished.whole.first_hit(plane.eye, direction);

@@ -2,14 +2,17 @@
 //!
 //! Takes a view's map, groups and losses. Gives exact solid angles (sums over cells, each of which lies in one face and on one
 //! support or none) and every gap: a connected region of the image with a model and one cause why nothing carries it.
-//! Gaps of different causes meet at cells' sides: where no outline divides them, to within a cell.
+//! Gaps of different causes meet at cells' sides: where no outline divides them, to within a cell. What no eye can make out, because it is
+//! nowhere as wide as the scene's `seen`, is summed and not listed.
 
 use super::point::without_minus_zero;
-use crate::geom::SQUARE_ARCMIN;
+use crate::geom::rings::offset;
+use crate::geom::{ARCMIN, SQUARE_ARCMIN};
 use crate::groups::anchor;
 use crate::index::{CellId, FaceId, SupportId, ViewId};
 use crate::sight::Sight;
 use crate::support::{Support, SupportKind};
+use crate::viewmap::ViewMap;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +72,7 @@ pub struct Coverage {
     pub models: Vec<ModelCoverage>,
     /// By falling size.
     pub gaps: Vec<Gap>,
-    /// Number and size of gaps too small to list.
+    /// Number and size of gaps too small or too narrow to list.
     pub small_gaps: usize,
     pub small_gaps_arcmin2: f64,
 }
@@ -93,8 +96,8 @@ enum Why {
 }
 
 /// Coverage of a view; `views` are all views' names. `given_up` are cells (rising) that have a group but no relief in the
-/// finished solid.
-pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId]) -> Coverage {
+/// finished solid. Gaps narrower than `seen` arc-minutes are not listed.
+pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId], seen: f64) -> Coverage {
     let map = &sight.image.map;
     let all = || CellId::all(map.cells.len());
     let carried =
@@ -127,7 +130,7 @@ pub fn coverage(sight: &Sight, views: &[&str], given_up: &[CellId]) -> Coverage 
     let least = GAP_SHARE * found.solid_angle_sr() * SQUARE_ARCMIN;
     for (why, cells) in regions(sight, &why) {
         let gap = gap(sight, views, why, &cells);
-        if gap.arcmin2 < least {
+        if gap.arcmin2 < least || !is_as_wide_as(&sight.image.map, &cells, seen) {
             found.small_gaps += 1;
             found.small_gaps_arcmin2 += gap.arcmin2;
         } else {
@@ -191,6 +194,19 @@ fn regions(sight: &Sight, why: &[Option<Why>]) -> Vec<(Why, Vec<CellId>)> {
         found.push((reason, cells));
     }
     found
+}
+
+/// Whether a region of cells is anywhere as wide as `seen` arc-minutes: whether a disc of that width fits in.
+pub(super) fn is_as_wide_as(map: &ViewMap, cells: &[CellId], seen: f64) -> bool {
+    // Across the way outwards, an angle takes as much more of the image's plane as the ray is longer than the forward axis.
+    let ray = map
+        .plane
+        .direction(map.points_mean(map.cells[cells[0]].corners));
+    let per_arcmin = ray.length() / ray.dot(map.plane.forward) * ARCMIN;
+    let mut rising = cells.to_vec();
+    rising.sort_unstable();
+    let rings = map.outlines(&rising, 1.0 / per_arcmin);
+    seen <= 0.0 || !offset(&rings, -seen / 2.0).is_empty()
 }
 
 /// Why nothing carries the model in a cell, judged at its centre.

@@ -5,14 +5,14 @@ use super::elsewhere::{camouflages, confirmed_tolerance};
 use super::print::print_checks;
 use super::sight::{carried, give_up};
 use crate::certify::camouflage::Camouflage;
-use crate::certify::conflicts::{Finished, sighted};
+use crate::certify::conflicts::{Finished, Sharpness, sighted};
 use crate::certify::layer::reach_mm;
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Contest, contested, settle};
 use crate::diag::Diagnostic;
 use crate::index::ViewId;
 use crate::mimic::{Optimality, Solved};
-use crate::report::{CertificateReport, ModelShare, Proof};
+use crate::report::{CertificateReport, ModelShare, Proof, nothing_mm};
 use crate::scene::Scene;
 use crate::sight::Sight;
 use crate::words::{self, carrier::carrier};
@@ -85,7 +85,11 @@ pub(crate) fn certificates(
     pieces: &[(String, DVec3)],
 ) -> Certificates {
     let names = built.scene.views.iter().map(|v| v.name.as_str()).collect();
-    let finished = Finished::new(&built.forest, &built.bvh, built.field, names);
+    let sharpness = Sharpness {
+        line: built.scene.making.line,
+        seen: built.scene.seen_arcmin,
+    };
+    let finished = Finished::new(&built.forest, &built.bvh, built.field, names, sharpness);
     let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())
         .into_par_iter()
         .map(|v| certificate(built, settled, v, &finished))
@@ -122,6 +126,7 @@ fn certificate(
         relief_back_mm: back,
         bound_violation_mm: shape.bound_violation_mm(),
         clamp_mm: relief.clamp_mm,
+        nothing_mm: nothing_mm(distance(sight)),
         order_inversions: shape.order_inversions(),
         crossings: shape.crossings(),
         proof: proof(solved),
@@ -148,6 +153,16 @@ fn certificate(
         tolerance: confirmed_tolerance(built, sight, relief),
     };
     (certificate, unseen)
+}
+
+/// How far the models are from the eye along its forward axis, from the nearest to the farthest in the middle; as from the reading
+/// distance for an eye at infinity. Millimetres.
+fn distance(sight: &Sight) -> f64 {
+    let depths = &sight.image.target.depth;
+    let (lo, hi) = depths.iter().fold((f64::INFINITY, 0.0f64), |(lo, hi), z| {
+        (lo.min(*z), hi.max(*z))
+    });
+    (lo + hi) / 2.0 / sight.image.map.plane.focal
 }
 
 /// What proves that depths are an optimum, if they are meant to be one.

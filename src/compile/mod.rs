@@ -38,7 +38,7 @@ use sight::unsettled;
 use split::divided;
 use stages::{built, missing, seen};
 use summary::report;
-use verdict::failures;
+use verdict::{failures, remarks};
 
 /// Everything the scene's output section names, judged. Pillars are found first if the scene wants it, as for every goal.
 ///
@@ -59,6 +59,7 @@ pub fn build(scene: &Scene, progress: Progress, stop: Stop) -> Result<Build, Vec
     let failures = failures(&built, &certificates);
     let mut warnings = unsettled(built.sights, &built.shapes);
     warnings.extend(divided.warnings);
+    warnings.extend(remarks(&built, &pictures, &certificates));
     let mut files = forest_files(&built, divided.files, &certificates);
     let mut report = report(&built, &pictures, certificates, divided.ladders);
     report.judge(&failures, &warnings);

@@ -1,20 +1,12 @@
-//! The print checks of a scene.
+//! The checks of how a forest is made.
 
 use super::built::Built;
-use crate::certify::printability::{PrintCheck, PrintLimits, Printed, printability};
-use crate::scene::defaults;
+use crate::certify::printability::{PrintCheck, Printed, printability};
 use glam::DVec3;
 
-/// Measures a forest against its scene's printer; `bodies` go on the bed one by one.
+/// Measures a forest against what its scene says of its making; `bodies` go on the bed one by one.
 pub(crate) fn print_checks(built: &Built, bodies: &[(String, DVec3)]) -> Vec<PrintCheck> {
     let (scene, forest) = (built.scene, &built.forest);
-    let limits = PrintLimits {
-        nozzle: scene.printer.nozzle,
-        bed: scene.printer.bed,
-        wall_nozzles: defaults::THIN_WALL_NOZZLES,
-        gap_nozzles: defaults::NARROW_GAP_NOZZLES,
-        slimmest: defaults::SLIMMEST,
-    };
     let printed = Printed {
         supports: &scene.supports,
         whole: &forest.whole,
@@ -22,5 +14,5 @@ pub(crate) fn print_checks(built: &Built, bodies: &[(String, DVec3)]) -> Vec<Pri
         standing: &forest.standing,
         bodies,
     };
-    printability(&printed, &limits)
+    printability(&printed, &scene.making.limits)
 }

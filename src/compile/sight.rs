@@ -68,5 +68,5 @@ pub(crate) fn unsettled(sights: &[Sight], shapes: &[Box<dyn Optimised + '_>]) ->
 /// What of the models a support carries, and why the rest is not. `given_up` are cells without relief in the solid.
 pub(crate) fn carried(sight: &Sight, scene: &Scene, given_up: &[CellId]) -> Coverage {
     let views: Vec<&str> = scene.views.iter().map(|v| v.name.as_str()).collect();
-    coverage(sight, &views, given_up)
+    coverage(sight, &views, given_up, scene.seen_arcmin)
 }

@@ -50,7 +50,7 @@ pub(crate) fn built<'a>(
     progress("quadratic programs", 0.15);
     let shapes = all(sights.par_iter().map(|s| optimise(s, scene)))?;
     progress("solids", 0.45);
-    let forest = solids(field, &shapes, scene.printer.nozzle)?;
+    let forest = solids(field, &shapes, scene.making.line)?;
     Ok(Built {
         bvh: Bvh::new(forest.whole.mesh()),
         scene,
@@ -61,7 +61,7 @@ pub(crate) fn built<'a>(
     })
 }
 
-/// The forest of what every view puts on the supports; `line` is the width of a printed line, millimetres.
+/// The forest of what every view puts on the supports; `line` is the finest that can be made, millimetres.
 fn solids(
     field: &SupportField,
     shapes: &[Box<dyn Optimised + '_>],

@@ -1,10 +1,13 @@
-//! The verdict: what of all that a build promises does not hold.
+//! The verdict: what of all that a build promises does not hold, and what its maker should know.
 
 use super::built::Built;
 use super::certificates::Certificates;
+use super::pictures::Pictures;
 use crate::diag::Diagnostic;
-use crate::report::{CertificateReport, NOTHING_MM, OPTIMAL};
+use crate::kinds::{Crossings, Optimised};
+use crate::report::{CertificateReport, OPTIMAL};
 use crate::scene::Scene;
+use crate::view::View;
 use crate::words::{self, carrier::carrier};
 
 /// Everything that does not hold: of the models, of each view, of the forest as one, and of printing it.
@@ -17,16 +20,40 @@ pub(crate) fn failures(built: &Built, certificates: &Certificates) -> Vec<Diagno
         of_view(scene, &view.name, certificate, &mut failures);
     }
     let parts = built.forest.whole.parts();
-    if parts > 1 {
+    if parts > scene.making.limits.parts {
         failures.push(
             Diagnostic::error(format!("the forest comes apart into {parts} pieces")).help(format!(
                 "a {carrier} that stands outside the base, or no base at all, leaves pieces loose"
             )),
         );
     }
-    let print = certificates.print.iter().filter(|c| !c.ok);
-    failures.extend(print.map(|c| words::print::failure(c, carrier)));
+    failures.extend(of_making(built, certificates).filter(Diagnostic::is_error));
     failures
+}
+
+/// What does not hold and is a matter of the machine, and views that are not what they might be.
+pub(crate) fn remarks(
+    built: &Built,
+    pictures: &[Pictures],
+    certificates: &Certificates,
+) -> Vec<Diagnostic> {
+    let making = of_making(built, certificates).filter(|d| !d.is_error());
+    let views = built.scene.views.iter().zip(&built.shapes).zip(pictures);
+    let of_view = |((view, shape), found): ((&View, &Box<dyn Optimised + '_>), &Pictures)| {
+        let summary = shape.steps().map(|(_, summary)| *summary);
+        let given_up = summary.and_then(|s| words::likeness::tears_given_up(&view.name, &s));
+        let mean = found.likeness.mean_deg;
+        let far = words::likeness::far_off(&view.name, mean, &built.scene.relief);
+        [given_up, far].into_iter().flatten()
+    };
+    making.chain(views.flat_map(of_view)).collect()
+}
+
+fn of_making(built: &Built, certificates: &Certificates) -> impl Iterator<Item = Diagnostic> {
+    let scene = built.scene;
+    let (carrier, check) = (carrier(&scene.supports), scene.making.way.check());
+    let broken = certificates.print.iter().filter(|c| !c.ok);
+    broken.map(move |c| words::print::verdict(c, carrier, check))
 }
 
 fn of_view(scene: &Scene, name: &str, found: &CertificateReport, failures: &mut Vec<Diagnostic>) {
@@ -38,7 +65,7 @@ fn of_view(scene: &Scene, name: &str, found: &CertificateReport, failures: &mut 
     };
     let outside = found.bound_violation_mm.max(found.clamp_mm);
     fail(
-        outside <= NOTHING_MM,
+        outside <= found.nothing_mm,
         format!("its relief would leave the layer by {outside:.6} mm"),
         "thicker layers (`front`, `back`) leave the solver more room",
     );
@@ -50,10 +77,12 @@ fn of_view(scene: &Scene, name: &str, found: &CertificateReport, failures: &mut 
         ),
         "thicker layers (`front`, `back`) leave the solver more room; `ordering: false` in `energy` allows it",
     );
-    let crossing = found.crossings.map_or(0, |c| c.self_intersections);
+    // What crosses in the model is not this program's doing, and is resolved in the solid.
+    let made = |c: Crossings| c.self_intersections.saturating_sub(c.in_model);
+    let crossing = found.crossings.map_or(0, made);
     fail(
         !scene.relief.keeps_sheets_apart() || crossing == 0,
-        format!("its mesh crosses itself at {crossing} pairs of faces"),
+        format!("its mesh crosses itself at {crossing} more pairs of faces than its models do"),
         "`check` tells whether the models cross themselves already; finer or rounder meshes leave more room at their silhouettes",
     );
     let gap = found.proof.map_or(0.0, |p| p.worst());

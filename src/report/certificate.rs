@@ -4,11 +4,18 @@ use crate::certify::conflicts::Disturbance;
 use crate::certify::coverage::Gap;
 use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
+use crate::geom::READING_MM;
 use crate::kinds::Crossings;
 use serde::{Deserialize, Serialize};
 
-/// Lengths below this are none, millimetres: a thousandth of what f32 files resolve.
-pub const NOTHING_MM: f64 = 1e-6;
+/// Lengths below this are none up to the reading distance, and in proportion beyond it, millimetres: depths are found in log depth, and
+/// this is a thousandth of what f32 files resolve there.
+const NOTHING_MM: f64 = 1e-6;
+
+/// Lengths below this are none for an eye so far away, millimetres.
+pub fn nothing_mm(distance: f64) -> f64 {
+    NOTHING_MM * (distance / READING_MM).max(1.0)
+}
 /// Duality gaps and residuals of a program in its own units; solutions come out two to four digits below.
 pub const OPTIMAL: f64 = 1e-6;
 
@@ -19,6 +26,8 @@ pub struct CertificateReport {
     /// millimetres.
     pub bound_violation_mm: f64,
     pub clamp_mm: f64,
+    /// What counts as nothing of both.
+    pub nothing_mm: f64,
     /// How far the relief comes before its datum and goes behind it, as its layer measures it: millimetres.
     pub relief_front_mm: f64,
     pub relief_back_mm: f64,

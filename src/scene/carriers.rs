@@ -51,7 +51,7 @@ pub(crate) fn carriers(
     }
     let pillars = reader.required(&raw.pillars, "pillars", "the scene", scene_span);
     let Some((pillars, span)) = pillars else {
-        carriers.colonnade.base = base(reader, &raw.base, &[], None);
+        carriers.colonnade.base = base(reader, &raw.base, &[]);
         return carriers;
     };
     let found = around.purpose == Purpose::Mend
@@ -110,23 +110,22 @@ fn planned(
     let given = reader.given(&auto.region);
     let room_span = given.as_ref().map_or(span, |(_, at)| at).clone();
     let given = given.map(|(raw, at)| region::region(reader, raw, &at));
-    let loose = Some("the planned pillars".to_string());
     let region = match given {
         Some(region) => {
             let region = region.unwrap_or_default();
             let held = [region.clone(), colonnade.corners()].concat();
-            colonnade.base = base(reader, &raw.base, &held, loose);
+            colonnade.base = base(reader, &raw.base, &held);
             region
         }
         None if has_size(&raw.base) => {
-            colonnade.base = base(reader, &raw.base, &[], loose);
+            colonnade.base = base(reader, &raw.base, &[]);
             let base = colonnade.base.as_ref();
             base.map_or(Vec::new(), |b| region::on_base(reader, b, span))
         }
         None => {
             let region = region::usual();
             let held = [region.clone(), colonnade.corners()].concat();
-            colonnade.base = base(reader, &raw.base, &held, loose);
+            colonnade.base = base(reader, &raw.base, &held);
             region
         }
     };
@@ -147,7 +146,7 @@ impl Carriers {
         if matches!(raw.base, Field::Given(_)) {
             let outlines = self.bodies.iter().flat_map(Support::outline);
             let held: Vec<DVec2> = outlines.copied().collect();
-            self.colonnade.base = base(reader, &raw.base, &held, None);
+            self.colonnade.base = base(reader, &raw.base, &held);
         }
     }
 
@@ -166,9 +165,8 @@ impl Carriers {
             false => entries,
         };
         self.colonnade = Colonnade::of(entries.iter().map(PillarEntry::batch));
-        let (n, corners) = (self.colonnade.pillars.len(), self.colonnade.corners());
-        let loose = (n > 1).then(|| format!("the {n} pillars"));
-        let base = base(reader, &raw.base, &corners, loose);
+        let corners = self.colonnade.corners();
+        let base = base(reader, &raw.base, &corners);
         if mend {
             let region = match &base {
                 Some(base) => region::on_base(reader, base, span),
@@ -188,7 +186,7 @@ impl Carriers {
             room: self.room.as_ref(),
             mend: around.purpose == Purpose::Mend,
         };
-        checks::all(reader, &checked, eyes, around.printer);
+        checks::all(reader, &checked, eyes, around.making);
         if let Some(included) = &self.included {
             let found = reader.problems.split_off(before);
             let told = found.into_iter().map(|p| included.told(p));

@@ -217,9 +217,17 @@ pub const FACETS: std::ops::RangeInclusive<u32> = 8..=512;
 pub const PICTURE_SIZES: std::ops::RangeInclusive<u32> = 64..=4096;
 pub const PLAN_WIDTHS: std::ops::RangeInclusive<u32> = 400..=8000;
 
-/// Thinner walls than this many nozzle widths print badly (0.9 mm at 0.4 mm).
-pub const THIN_WALL_NOZZLES: f64 = 2.25;
-/// Narrower gaps than this many nozzle widths fuse (0.2 mm at 0.4 mm).
-pub const NARROW_GAP_NOZZLES: f64 = 0.5;
-/// Slimmer pillars than this height to width break on the printer.
+/// Slimmer pillars than this height to width break on the printer, and under a cutter.
 pub const SLIMMEST: f64 = 30.0;
+pub const SLENDERNESS_ALLOWED: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
+/// Farther than this a ledge is not held by one tower of a slicer's supports, which are 10 mm wide or less. A choice: the layers of
+/// reliefs on pillars (7 mm) stay below it, a table top does not.
+pub const OVERHANG: f64 = 10.0;
+/// A cutter for wood or foam, and the wall it leaves standing.
+pub const TOOL: f64 = 3.0;
+pub const MILLED_WALL: f64 = 1.0;
+/// What is built by hand.
+pub const FINEST_BUILT: f64 = 1.0;
+/// What a good eye resolves, arc-minutes: gaps nowhere wider go unseen.
+pub const SEEN: f64 = 1.0;
+pub const SEEN_ALLOWED: std::ops::RangeInclusive<f64> = 0.0..=60.0;

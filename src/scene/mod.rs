@@ -49,6 +49,6 @@ pub use language::template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 pub use layout::laid::{laid_out, layout_text};
 pub use request::ReadFile;
 pub use resolve::{resolve, resolve_to_mend};
-pub use resolved::{Output, Printer, Scene};
+pub use resolved::{Making, MakingWay, Output, Printer, Scene};
 pub use text::nearest;
 pub use text::set::set;

@@ -83,17 +83,19 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     let mut models = models(reader, raw, &scene_span);
     let drafts = drafts(reader, &raw.views, &scene_span, models.as_deref());
     let printer = printing::printer(reader, &raw.printer);
+    let making = printing::making(reader, &raw.make, &printer);
+    let seen = reader.within(&raw.seen, "seen", defaults::SEEN_ALLOWED);
     let eyes: Vec<Eye> = drafts.iter().map(Draft::eye).collect();
     let around = Around {
         read,
         purpose,
-        printer: &printer,
+        making: &making,
         views: drafts.iter().map(|d| d.name.as_str()).collect(),
         view_count: view_count(raw).unwrap_or(drafts.len()),
     };
     let carriers = carriers(reader, raw, &scene_span, &around);
     let energy = energy::energy(reader, &raw.energy);
-    let steps = steps::steps(reader, &raw.energy, carriers.most_pillars(), &printer);
+    let steps = steps::steps(reader, &raw.energy, carriers.most_pillars(), &making);
     let held = whole::whole(reader, raw);
     let contested = energy::contested(reader, &raw.contested);
     let output = printing::output(reader, &raw.output);
@@ -112,6 +114,7 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     if held.is_some() {
         whole::hold_outlines(&mut supports);
     }
+    let making = making.of(&supports);
     sound.then_some(Scene {
         title,
         views,
@@ -124,7 +127,9 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
             (None, _, energy) => ReliefKind::HeightField(energy),
         },
         contested,
+        making,
         printer,
+        seen_arcmin: seen.map_or(defaults::SEEN, |(v, _)| v),
         output,
     })
 }

@@ -1,5 +1,6 @@
 //! A scene with nothing left to decide: what [`resolve`](super::resolve) gives and every later stage takes.
 
+use crate::certify::printability::PrintLimits;
 use crate::contest::Contested;
 use crate::kinds::ReliefKind;
 use crate::planner::{Adjustment, Brief};
@@ -24,7 +25,71 @@ pub struct Scene {
     /// Who gets surface that two views want.
     pub contested: Contested,
     pub printer: Printer,
+    pub making: Making,
+    /// What is narrower is not seen, arc-minutes.
+    pub seen_arcmin: f64,
     pub output: Output,
+}
+
+/// How the forest is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Making {
+    pub way: MakingWay,
+    /// The finest that can be made, millimetres: the width of a printed line, of a cutter.
+    pub line: f64,
+    pub limits: PrintLimits,
+}
+
+/// Which machine or hand makes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MakingWay {
+    Printed,
+    Milled,
+    Built,
+}
+
+impl Making {
+    /// Narrower gaps do not stay open, millimetres.
+    pub(crate) fn narrowest_gap(&self) -> f64 {
+        self.limits.gap.map_or(0.0, |g| g.wanted)
+    }
+}
+
+impl MakingWay {
+    /// What becomes of gaps and walls that are too small.
+    pub(crate) fn closes(self) -> &'static str {
+        match self {
+            Self::Printed => "fuse when printed",
+            Self::Milled => "are too narrow for the cutter",
+            Self::Built => "close",
+        }
+    }
+
+    /// What to write for a finer one.
+    pub(crate) fn finest(self) -> &'static str {
+        match self {
+            Self::Printed => "`printer: (nozzle: ...)`",
+            Self::Milled => "`make: Milled(tool: ...)`",
+            Self::Built => "`make: Built(finest: ...)`",
+        }
+    }
+
+    /// What its finest line is made with.
+    pub(crate) fn tool(self) -> &'static str {
+        match self {
+            Self::Printed => "nozzle",
+            Self::Milled => "cutter",
+            Self::Built => "line",
+        }
+    }
+
+    /// What a check is called.
+    pub(crate) fn check(self) -> &'static str {
+        match self {
+            Self::Printed => "print check",
+            Self::Milled | Self::Built => "check",
+        }
+    }
 }
 
 /// The printer the checks have in mind, millimetres.

@@ -3,11 +3,15 @@
 use crate::certify::coverage::{Cause, CauseShare, Coverage, Gap};
 use crate::diag::Diagnostic;
 
+/// Smaller shares of the models would be told as 0.00 %.
+const LEAST_SHARE: f64 = 0.5e-4;
+
 /// What is worth telling of a view's gaps: one warning for each cause. `carrier` is what [supports are
 /// called](super::carrier::carrier).
 pub fn warnings(view: &str, found: &Coverage, carrier: &str) -> Vec<Diagnostic> {
     let causes = found.by_cause();
-    causes.iter().map(|c| warning(view, c, carrier)).collect()
+    let told = causes.iter().filter(|c| c.share >= LEAST_SHARE);
+    told.map(|c| warning(view, c, carrier)).collect()
 }
 
 /// The warning of all gaps of one cause, with the largest.

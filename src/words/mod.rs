@@ -10,6 +10,7 @@ pub mod coverage;
 pub mod gate;
 pub mod iterated;
 pub mod ladders;
+pub mod likeness;
 pub mod planner;
 pub mod print;
 pub mod sight;

@@ -47,8 +47,9 @@ fn bed(body: Option<&str>, fits: bool) -> String {
     format!("the tightest side of {name}{help}")
 }
 
-/// A check that does not hold, as what keeps a build from being printable.
-pub fn failure(found: &PrintCheck, carrier: &str) -> Diagnostic {
+/// A check that does not hold: an error if it spoils what is seen, a warning if it is a matter of the machine. `check` is what checks
+/// are called.
+pub fn verdict(found: &PrintCheck, carrier: &str, check: &str) -> Diagnostic {
     let PrintCheck {
         finding,
         place: [x, y, z],
@@ -58,8 +59,11 @@ pub fn failure(found: &PrintCheck, carrier: &str) -> Diagnostic {
     } = found;
     let name = finding.name();
     let note = note(found, carrier);
-    Diagnostic::error(format!(
-        "print check `{name}`: {value_mm:.2} mm at ({x:.1}, {y:.1}, {z:.1}) mm, and the limit is {limit_mm:.2} mm"
-    ))
-    .help(note)
+    let text = format!(
+        "{check} `{name}`: {value_mm:.2} mm at ({x:.1}, {y:.1}, {z:.1}) mm, and the limit is {limit_mm:.2} mm"
+    );
+    match finding.is_of_machine() {
+        true => Diagnostic::warning(text).help(note),
+        false => Diagnostic::error(text).help(note),
+    }
 }

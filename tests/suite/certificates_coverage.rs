@@ -7,7 +7,7 @@ use crate::shapes::{
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
 use pillarforest::carve::{Forest, Operand, carve};
-use pillarforest::certify::conflicts::{self, Finished, SEAM_MM, Sighted, Trouble};
+use pillarforest::certify::conflicts::{self, Finished, Sharpness, Sighted, Trouble};
 use pillarforest::certify::coverage::{Cause, Coverage, coverage};
 use pillarforest::contest::{CONTACT_MM, Contested, Frustum, Settlement, contested, settle};
 use pillarforest::geom::SQUARE_ARCMIN;
@@ -17,7 +17,7 @@ use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::relief::{Relief, relief};
 use pillarforest::scene::defaults;
 use pillarforest::sight::Sight;
-use pillarforest::support::{Datum, Support};
+use pillarforest::support::{Datum, Support, SupportKind};
 use pillarforest::viewmap::SupportField;
 use pillarforest::words;
 use pillarforest::words::contest::refused;
@@ -31,8 +31,15 @@ fn sight(
     sighted(view(name, eye, model, ORANGE), field)
 }
 
+/// Width of a printed line.
+const LINE_MM: f64 = defaults::PRINTER.nozzle;
+const SHARPNESS: Sharpness = Sharpness {
+    line: LINE_MM,
+    seen: 1.0,
+};
+
 fn coverage_of(sight: &Sight) -> Coverage {
-    coverage(sight, &["a", "b"], &[])
+    coverage(sight, &["a", "b"], &[], 0.0)
 }
 
 fn carried_arcmin2(sight: &Sight) -> f64 {
@@ -312,8 +319,7 @@ fn opposite_reliefs_on_the_faces_of_one_plate_do_not_meet() {
         let profile = [(-30.0, -half), (30.0, -half), (30.0, half), (-30.0, half)];
         let profile: Vec<DVec2> = profile.iter().map(|p| DVec2::from(*p)).collect();
         support.mesh = prism(&profile, 0.0, 40.0);
-        let pillarforest::support::SupportKind::Pillar { profile: own, .. } = &mut support.kind
-        else {
+        let SupportKind::Pillar { profile: own, .. } = &mut support.kind else {
             panic!("a pillar")
         };
         *own = profile;
@@ -420,6 +426,54 @@ fn gaps_beside_a_pillar_and_before_the_base_have_their_causes() {
     assert_eq!(words::coverage::warnings("a", &coverage, "pillar").len(), 2);
 }
 
+/// A slit between two pillars is a gap if an eye can make it out, and only counted if not.
+#[test]
+fn a_slit_narrower_than_what_is_seen_is_counted_and_not_listed() {
+    // Seen from 146 mm, an arc-minute measures 0.0425 mm.
+    for (slit, is_listed) in [(0.036, false), (0.05, true)] {
+        let half = |side: f64| {
+            let x = side * (6.0 + slit / 2.0);
+            let mut half = pillar(DVec2::ZERO, 5.0, 4, Datum::Plane);
+            let corner = |dx: f64, dy: f64| DVec2::new(x + dx, dy);
+            let profile = vec![
+                corner(-6.0, -4.0),
+                corner(6.0, -4.0),
+                corner(6.0, 4.0),
+                corner(-6.0, 4.0),
+            ];
+            half.mesh = prism(&profile, 0.0, 40.0);
+            if let SupportKind::Pillar {
+                axis, profile: own, ..
+            } = &mut half.kind
+            {
+                (*axis, *own) = (DVec2::new(x, 0.0), profile);
+            }
+            half
+        };
+        let supports = [half(-1.0), half(1.0)];
+        let field = field(&supports);
+        let sight = sight("a", EYE, bumpy(9.0), field);
+        let found = coverage(&sight, &["a"], &[], 1.0);
+        assert_eq!(
+            !found.gaps.is_empty(),
+            is_listed,
+            "{slit}: {:?}",
+            found.gaps
+        );
+        assert_eq!(found.small_gaps > 0, !is_listed, "{slit}");
+        assert!(found.share() < 1.0);
+        let told = words::coverage::warnings("a", &found, "pillar");
+        assert_eq!(told.len(), usize::from(is_listed), "{told:?}");
+        assert!(
+            told.iter().all(|w| !w.message.contains(" 0.00 %")),
+            "{told:?}"
+        );
+        // Whoever wants to know everything is told.
+        let all = coverage(&sight, &["a"], &[], 0.0);
+        assert!(!all.gaps.is_empty(), "{slit}");
+    }
+}
+
 /// The finished forest of some views.
 struct Built {
     sights: Vec<Sight<'static>>,
@@ -438,8 +492,7 @@ impl Built {
         let operands: Vec<Operand> = views
             .map(|(sight, relief)| Operand::Relief { sight, relief })
             .collect();
-        let forest =
-            carve(sights[0].image.field, &operands, defaults::PRINTER.nozzle).expect("a forest");
+        let forest = carve(sights[0].image.field, &operands, LINE_MM).expect("a forest");
         Self {
             sights,
             reliefs,
@@ -451,7 +504,7 @@ impl Built {
         let bvh = Bvh::new(forest.whole.mesh());
         let names = self.sights.iter().map(Sight::name).collect();
         let sight = &self.sights[v];
-        let finished = Finished::new(forest, &bvh, sight.image.field, names);
+        let finished = Finished::new(forest, &bvh, sight.image.field, names, SHARPNESS);
         let (relief, given_up) = (&self.reliefs[v], &forest.given_up[v]);
         conflicts::sighted(sight, ViewId::new(v), relief, given_up, &finished)
     }
@@ -487,15 +540,16 @@ fn rays_find_a_finished_forest_free_and_a_box_before_it() {
     );
     assert!((blocked.place_mm[1] + 50.0).abs() < 1e-4);
     // Solid angle of a rectangle: 4 asin(ab / sqrt((1 + a^2)(1 + b^2))), half sides a and b at distance 1; hairs at its edge
-    // of the stated width, measured at the relief, do not count.
-    let hair = SEAM_MM / 146.0;
+    // of half a line, measured at the relief, do not count. Cells are sampled in parts of half a millimetre, some sixty of them along
+    // the edge, each of which is in or out: a tenth of the area at most.
+    let hair = LINE_MM / 2.0 / 146.0;
     let solid = |a: f64, b: f64| {
         4.0 * (a * b / ((1.0 + a * a) * (1.0 + b * b)).sqrt()).asin() * SQUARE_ARCMIN
     };
     let (most, least) = (solid(0.01, 0.015), solid(0.01 - hair, 0.015 - hair));
     let arcmin2 = blocked.arcmin2;
     assert!(
-        (0.97 * least..1.03 * most).contains(&arcmin2),
+        (0.9 * least..1.1 * most).contains(&arcmin2),
         "{arcmin2} is not {least} to {most}"
     );
     let lost = found.lost_sr[0] * SQUARE_ARCMIN;

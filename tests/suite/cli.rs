@@ -263,6 +263,58 @@ const TOO_NARROW: &str = r#"(
     output: (forest_glb: false, plan: false, views: false, lights: false, camouflage: false),
 )"#;
 
+/// What another machine or a slicer's supports may solve is told, and no failure.
+#[test]
+fn matters_of_the_machine_are_warnings() {
+    let wide = TOO_NARROW.replace("radius: 4", "radius: 9");
+    let folder = folder(&wide);
+    let small_bed = [
+        "build",
+        "-o",
+        "made",
+        "--set",
+        "printer=(bed: (20, 20, 20))",
+    ];
+    let (code, _, err) = run(folder.path(), &small_bed);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("warning: print check `bed`"), "{err}");
+    let (code, _, err) = run(
+        folder.path(),
+        &[
+            "build",
+            "-o",
+            "made",
+            "--set",
+            "make=Printed(overhang: 0.1)",
+        ],
+    );
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("warning: print check `overhang`"), "{err}");
+    let built = ["build", "-q", "-o", "built", "--set", "make=Built()"];
+    let (code, _, err) = run(folder.path(), &built);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let report = fs::read_to_string(folder.path().join("built/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let checks = report["print"].as_array().expect("checks");
+    let names: Vec<&str> = checks.iter().filter_map(|c| c["check"].as_str()).collect();
+    assert_eq!(names, ["part", "cavity", "core"]);
+}
+
+/// Pillars without a base stand each for itself, in a board drilled for them.
+#[test]
+fn pillars_without_a_base_are_no_loose_parts() {
+    let two = TOO_NARROW
+        .replace("radius: 4", "radius: 7")
+        .replace("At([(0, 0)])", "At([(0, 0), (0, 30)])")
+        .replace("output:", "base: None, output:");
+    let folder = folder(&two);
+    let (code, _, err) = run(folder.path(), &["build", "-q", "-o", "made"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let report = fs::read_to_string(folder.path().join("made/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["solid"]["parts"], 2);
+}
+
 #[test]
 fn what_does_not_hold_is_told_and_written_only_by_force() {
     let folder = folder(TOO_NARROW);

@@ -9,13 +9,9 @@ use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::support::{Datum, Support, SupportKind};
 use pillarforest::words::print::note;
 
-const LIMITS: PrintLimits = PrintLimits {
-    nozzle: 0.4,
-    bed: [100.0, 120.0, 80.0],
-    wall_nozzles: 2.25,
-    gap_nozzles: 0.5,
-    slimmest: 30.0,
-};
+fn limits() -> PrintLimits {
+    PrintLimits::printed(0.4, [100.0, 120.0, 80.0], 10.0, 30.0)
+}
 
 fn checks(mesh: TriMesh, supports: &[Support], bodies: &[(String, DVec3)]) -> Vec<PrintCheck> {
     let whole = Solid::new(mesh).unwrap();
@@ -28,7 +24,7 @@ fn checks(mesh: TriMesh, supports: &[Support], bodies: &[(String, DVec3)]) -> Ve
         standing: &standing,
         bodies,
     };
-    printability(&printed, &LIMITS)
+    printability(&printed, &limits())
 }
 
 fn found(checks: &[PrintCheck], name: &str) -> PrintCheck {

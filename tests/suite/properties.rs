@@ -187,7 +187,7 @@ impl Draft {
             "None"
         };
         format!(
-            "(\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {:.3}, back: {:.3}),\n  \
+            "(\n  seen: 0,\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {:.3}, back: {:.3}),\n  \
              energy: {energy},\n  contested: {contested},\n  base: {base},\n  output: (forest_glb: false, plan: false, views: false, \
              lights: false, camouflage: false, picture_size: 64),\n)\n",
             self.front, self.back

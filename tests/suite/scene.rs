@@ -414,8 +414,24 @@ fn steps_are_allowed_from_two_pillars_on_unless_the_scene_says_otherwise() {
         set(&[one, "energy=Normal(steps: Allowed())"]),
         Some(by_default)
     );
+    let milled = set(&["make=Milled(tool: 2)"]).expect("steps");
+    assert_eq!(milled.narrowest_mm, 2.0);
     let finer = set(&["printer.nozzle=0.25"]).expect("steps");
     assert_eq!((by_default.narrowest_mm, finer.narrowest_mm), (0.4, 0.25));
+}
+
+/// A row of pillars that all overlap is one mistake: it is told where it is worst, and how often it is made.
+#[test]
+fn many_overlaps_are_told_in_few_words() {
+    let places: Vec<String> = (0..20).map(|i| format!("({}, 0)", 2 * i)).collect();
+    let row = format!("pillars[0].places=At([{}])", places.join(", "));
+    let text = scene::set(PLAIN, &row).expect("a row");
+    let told: Vec<_> = errors(&text)
+        .into_iter()
+        .filter(|e| e.message.contains("overlap"))
+        .collect();
+    assert_eq!(told.len(), 3, "{told:?}");
+    assert!(told[2].message.contains("more pairs"), "{told:?}");
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Whether it fits the printer's bed.
 
-use super::check::{PrintCheck, PrintFinding, PrintLimits, Printed};
+use super::check::{PrintCheck, PrintFinding, Printed};
 use crate::certify::point::without_minus_zero;
 use glam::DVec3;
 
 /// The body that fits the bed worst: its size along the tightest direction.
-pub(crate) fn bed(printed: &Printed, limits: &PrintLimits) -> PrintCheck {
+pub(crate) fn bed(printed: &Printed, room: [f64; 3]) -> PrintCheck {
     let (lo, hi) = printed.whole.bounds();
     let forest = [(String::new(), hi - lo)];
     let bodies = if printed.bodies.is_empty() {
@@ -16,7 +16,7 @@ pub(crate) fn bed(printed: &Printed, limits: &PrintLimits) -> PrintCheck {
     let sides = |(name, size): &(String, DVec3)| {
         // Turned as it fits better: longer side to longer side.
         let (long, short) = (size.x.max(size.y), size.x.min(size.y));
-        let [x, y, z] = limits.bed;
+        let [x, y, z] = room;
         [(long, x.max(y)), (short, x.min(y)), (size.z, z)]
             .into_iter()
             .map(|(value, room)| (name.clone(), value, room))

@@ -46,6 +46,14 @@ pub enum PrintFinding {
 }
 
 impl PrintFinding {
+    /// Whether it is a matter of the machine, which another machine, supports or care may solve, and not of what is seen.
+    pub fn is_of_machine(&self) -> bool {
+        matches!(
+            self,
+            Self::Overhang { .. } | Self::Slenderness { .. } | Self::Bed { .. }
+        )
+    }
+
     /// As the report has it.
     pub fn name(&self) -> &'static str {
         match self {
@@ -69,19 +77,80 @@ pub struct LostWalls {
     pub largest_mm2: f64,
 }
 
-/// What the printer can do.
+/// A length as it is wanted, and where it fails, millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    pub wanted: f64,
+    pub limit: f64,
+}
+
+/// What can be made; what is `None` is not asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintLimits {
-    /// Width of a printed line, millimetres.
-    pub nozzle: f64,
-    /// Width, depth and height of the build volume, millimetres.
-    pub bed: [f64; 3],
-    /// Thinnest wall wanted, in nozzles.
-    pub wall_nozzles: f64,
-    /// Narrowest gap wanted, in nozzles.
-    pub gap_nozzles: f64,
+    /// Thickness of walls, from above.
+    pub wall: Option<Margin>,
+    /// Width of gaps, from above.
+    pub gap: Option<Margin>,
+    /// How far ledges reach, from below.
+    pub overhang: Option<Margin>,
     /// Height of a pillar over its least width that still stands.
-    pub slimmest: f64,
+    pub slimmest: Option<f64>,
+    /// Width, depth and height of what holds the work, millimetres.
+    pub bed: Option<[f64; 3]>,
+    /// How many parts there are on purpose.
+    pub parts: usize,
+}
+
+/// Walls wanted by a printer, in nozzles: two printed lines that overlap; and what is not printed at all (0.65 mm at 0.4 mm, by trial).
+pub const WALL_NOZZLES: [f64; 2] = [2.25, 1.625];
+/// Gaps wanted, in nozzles, and those that fuse (0.1 mm at 0.4 mm, by trial).
+pub const GAP_NOZZLES: [f64; 2] = [0.5, 0.25];
+/// A printed line may stick out freely by this many nozzles.
+const FREE_NOZZLES: f64 = 3.0;
+
+impl PrintLimits {
+    /// Of a printer with this `nozzle`, whose supports hold ledges of up to `overhang`, millimetres.
+    pub fn printed(nozzle: f64, bed: [f64; 3], overhang: f64, slimmest: f64) -> Self {
+        let in_nozzles = |[wanted, limit]: [f64; 2]| Margin {
+            wanted: wanted * nozzle,
+            limit: limit * nozzle,
+        };
+        Self {
+            wall: Some(in_nozzles(WALL_NOZZLES)),
+            gap: Some(in_nozzles(GAP_NOZZLES)),
+            overhang: Some(Margin {
+                wanted: FREE_NOZZLES * nozzle,
+                limit: overhang,
+            }),
+            slimmest: Some(slimmest),
+            bed: Some(bed),
+            parts: 1,
+        }
+    }
+
+    /// Of a cutter of this width, `tool`, that leaves walls from `wall` on standing, millimetres.
+    pub fn milled(tool: f64, wall: f64, slimmest: f64) -> Self {
+        let sharp = |length: f64| Margin {
+            wanted: length,
+            limit: length,
+        };
+        Self {
+            wall: Some(sharp(wall)),
+            gap: Some(sharp(tool)),
+            slimmest: Some(slimmest),
+            ..Self::NONE
+        }
+    }
+
+    /// What has no limits but that it must hang together.
+    pub const NONE: Self = Self {
+        wall: None,
+        gap: None,
+        overhang: None,
+        slimmest: None,
+        bed: None,
+        parts: 1,
+    };
 }
 
 /// What is printed: the forest as one, and as it goes on the bed.

@@ -7,8 +7,8 @@ use crate::mesh::shells::shells;
 use crate::mesh::{Solid, TriMesh, face_components};
 use glam::DVec3;
 
-/// What would come off, and what is enclosed.
-pub(crate) fn loose(whole: &Solid) -> [PrintCheck; 2] {
+/// What would come off, and what is enclosed. As many parts as there are `on_purpose` stay.
+pub(crate) fn loose(whole: &Solid, on_purpose: usize) -> [PrintCheck; 2] {
     let mesh = whole.mesh();
     let (mut parts, mut cavities) = (Vec::new(), Vec::new());
     if whole.parts() + whole.cavities() > 1 {
@@ -36,7 +36,7 @@ pub(crate) fn loose(whole: &Solid) -> [PrintCheck; 2] {
             ok: found.is_empty(),
         }
     };
-    let loose = &parts[1.min(parts.len())..];
+    let loose = &parts[on_purpose.min(parts.len())..];
     [
         check(PrintFinding::Part { count: loose.len() }, loose),
         check(

@@ -1,6 +1,6 @@
 //! Whether the forest can be printed: walls, gaps, overhangs, slenderness, bed, loose parts, core.
 //!
-//! Takes the finished solid, its supports and the printer's measures; gives one [`PrintCheck`] for each question with the worst
+//! Takes the finished solid, its supports and what can be made; gives one [`PrintCheck`] for each question that is asked, with the worst
 //! place, what was measured there and what was wanted. Nothing is changed. The same solid gives the same figures on any number of
 //! threads.
 //!
@@ -16,7 +16,7 @@
 //! - `gap` between pillars: 0.5 nozzles wanted, below 0.25 nozzles two pillars fuse. Reliefs that meet on purpose, spots,
 //!   and slots within one pillar do not count.
 //! - `overhang`: how far reliefs stand out over nothing. 3 nozzles are printed freely, more needs a slicer's supports; the limit is
-//!   what a single tower of them holds.
+//!   given, and by default what a single tower of them holds.
 //! - `slenderness`: the least width against a given share of the height.
 //! - `bed`: the size against the printer's.
 //! - `part`, `cavity`: extent of the largest piece that would come off, of the largest hollow without a way out; none wanted.
@@ -30,28 +30,31 @@ mod overhang;
 mod slenderness;
 mod walls;
 
-pub use check::{LostWalls, PrintCheck, PrintFinding, PrintLimits, Printed};
+pub use check::{
+    GAP_NOZZLES, LostWalls, Margin, PrintCheck, PrintFinding, PrintLimits, Printed, WALL_NOZZLES,
+};
 pub use overhang::STEEP_DEG;
 
 use rayon::join;
 
-/// All checks, in the order of the module's list.
+/// All checks that are asked, in the order of the module's list.
 pub fn printability(printed: &Printed, limits: &PrintLimits) -> Vec<PrintCheck> {
     let mesh = printed.whole.mesh();
     let ((wall_and_gap, overhang), core) = join(
         || {
             join(
                 || walls::walls(mesh, printed.bvh, printed.supports, limits),
-                || overhang::overhang(mesh, limits),
+                || limits.overhang.map(|most| overhang::overhang(mesh, most)),
             )
         },
         || neck::core(printed),
     );
-    let mut checks = wall_and_gap.to_vec();
-    checks.push(overhang);
-    checks.extend(slenderness::slenderness(printed.supports, limits));
-    checks.push(bed::bed(printed, limits));
-    checks.extend(loose::loose(printed.whole));
+    let mut checks = wall_and_gap;
+    checks.extend(overhang);
+    let slimmest = limits.slimmest;
+    checks.extend(slimmest.and_then(|most| slenderness::slenderness(printed.supports, most)));
+    checks.extend(limits.bed.map(|room| bed::bed(printed, room)));
+    checks.extend(loose::loose(printed.whole, limits.parts));
     checks.extend(core);
     checks
 }

@@ -6,7 +6,7 @@
 //! points from the nearest such edge. A bridge is held at both ends and reaches half its span. A ledge that is held nowhere starts
 //! in mid-air: its reach is its own extent.
 
-use super::check::{PrintCheck, PrintFinding, PrintLimits};
+use super::check::{Margin, PrintCheck, PrintFinding};
 use crate::certify::point::without_minus_zero;
 use crate::geom::to_segment;
 use crate::index::FaceId;
@@ -18,22 +18,16 @@ use rayon::prelude::*;
 pub const STEEP_DEG: f64 = 45.0;
 /// Faces this near to the lowest point lie on the bed, millimetres.
 const BED_MM: f64 = 0.01;
-/// A printed line may stick out freely by this many nozzles.
-const FREE_NOZZLES: f64 = 3.0;
-/// Farther than this a ledge is not held by one tower of a slicer's supports, which are 10 mm wide or less, millimetres. A choice: the
-/// layers of reliefs on pillars (7 mm by default) stay below it, a table top does not.
-const HELD_MM: f64 = 10.0;
 
 /// Points of hanging faces are at most this far apart along edges, millimetres, on faces of up to [`FINEST`] such steps.
 const GRID_MM: f64 = 1.0;
 const FINEST: u32 = 100;
 
 /// The ledge that reaches farthest.
-pub(crate) fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
+pub(crate) fn overhang(mesh: &TriMesh, most: Margin) -> PrintCheck {
     let ledges = ledges(mesh);
     let reaches: Vec<(f64, DVec3)> = ledges.par_iter().map(Ledge::reach).collect();
-    let free = FREE_NOZZLES * limits.nozzle;
-    let over = reaches.iter().filter(|r| r.0 > free).count();
+    let over = reaches.iter().filter(|r| r.0 > most.wanted).count();
     let (reach, place) = reaches
         .into_iter()
         .max_by(|a, b| a.0.total_cmp(&b.0))
@@ -42,9 +36,9 @@ pub(crate) fn overhang(mesh: &TriMesh, limits: &PrintLimits) -> PrintCheck {
         finding: PrintFinding::Overhang { ledges: over },
         place: without_minus_zero(place),
         value_mm: reach,
-        wanted_mm: free,
-        limit_mm: HELD_MM,
-        ok: reach <= HELD_MM,
+        wanted_mm: most.wanted,
+        limit_mm: most.limit,
+        ok: reach <= most.limit,
     }
 }
 

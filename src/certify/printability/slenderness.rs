@@ -1,18 +1,29 @@
 //! Whether pillars stand: their least width against their height.
 
-use super::check::{PrintCheck, PrintFinding, PrintLimits};
+use super::check::{PrintCheck, PrintFinding};
 use crate::certify::point::without_minus_zero;
 use crate::geom::narrowest;
 use crate::support::{Support, SupportKind};
+use glam::DVec2;
 
 /// The pillar whose least width is the smallest share of what its height wants.
-pub(crate) fn slenderness(supports: &[Support], limits: &PrintLimits) -> Option<PrintCheck> {
+pub(crate) fn slenderness(supports: &[Support], slimmest: f64) -> Option<PrintCheck> {
     let pillars = supports.iter().filter_map(|s| match &s.kind {
         SupportKind::Pillar {
-            axis, profile, top, ..
+            axis,
+            profile,
+            top,
+            round,
+            ..
         } => {
-            let (width, height) = (narrowest(profile), top.max(0.0));
-            Some((s, axis.extend(height), width, height / limits.slimmest))
+            // A round pillar is as wide as the circle that its outline stands for.
+            let across = |p: &DVec2| 2.0 * p.distance(*axis);
+            let width = match round {
+                true => profile.iter().map(across).fold(0.0, f64::max),
+                false => narrowest(profile),
+            };
+            let height = top.max(0.0);
+            Some((s, axis.extend(height), width, height / slimmest))
         }
         SupportKind::Base { .. } | SupportKind::Body { .. } => None,
     });
@@ -22,7 +33,7 @@ pub(crate) fn slenderness(supports: &[Support], limits: &PrintLimits) -> Option<
         finding: PrintFinding::Slenderness {
             support: support.name.clone(),
             ratio: place.z / width,
-            most: limits.slimmest,
+            most: slimmest,
         },
         place: without_minus_zero(place),
         value_mm: width,

@@ -8,7 +8,7 @@
 //! behind it, and printing blunts it. So a thin place counts as a *wall* only if no thick place of the same side is within
 //! [`LIP_MM`] of it; in the same way a narrow place is a *gap* only away from wide ones, not at the bottom of a notch.
 
-use super::check::{LostWalls, PrintCheck, PrintFinding, PrintLimits};
+use super::check::{LostWalls, Margin, PrintCheck, PrintFinding, PrintLimits};
 use crate::bvh::Bvh;
 use crate::certify::point::without_minus_zero;
 use crate::index::FaceId;
@@ -26,8 +26,6 @@ const SAMPLE_MM2: f64 = 0.25;
 const MOST_SAMPLES: f64 = 200_000.0;
 /// How far from thick material a lip may reach, millimetres: what is blunted there is not missed.
 const LIP_MM: f64 = 2.0;
-/// Walls of fewer nozzles than this are not printed at all (0.65 mm at 0.4 mm, by trial).
-const VANISH_NOZZLES: f64 = 1.625;
 /// Smaller walls are not missed, square millimetres of one side. Where a relief ends at a pillar's outline, films of some hundredths
 /// of a millimetre are left between two cuts along an eye's rays: up to 16 mm2 on the bundled scenes. They are not printed, and as
 /// the eye sees them edge-on it loses nothing. A pillar or plate that is too thin is larger by far.
@@ -36,8 +34,6 @@ pub(crate) const MISSED_MM2: f64 = 25.0;
 const FUSED_MM2: f64 = 4.0;
 /// Samples of one wall lie within so many of their mean distances.
 const LINK: f64 = 1.5;
-/// Gaps of fewer nozzles than this fuse (0.1 mm at 0.4 mm, by trial).
-const FUSE_NOZZLES: f64 = 0.25;
 
 /// A point of the surface.
 struct Sample {
@@ -50,25 +46,29 @@ struct Sample {
     foreign: bool,
 }
 
-/// The checks `wall` and `gap`.
+/// The checks `wall` and `gap`, if they are asked.
 pub(crate) fn walls(
     mesh: &TriMesh,
     bvh: &Bvh,
     supports: &[Support],
     limits: &PrintLimits,
-) -> [PrintCheck; 2] {
+) -> Vec<PrintCheck> {
+    if limits.wall.is_none() && limits.gap.is_none() {
+        return Vec::new();
+    }
     let (points, each) = spread(mesh);
     let samples: Vec<Sample> = points
         .par_iter()
         .map(|(face, at)| probe(mesh, bvh, supports, *face, *at))
         .collect();
-    [wall(&samples, each, limits), gap(&samples, each, limits)]
+    let wall = limits.wall.map(|least| wall(&samples, each, least));
+    let gap = limits.gap.map(|least| gap(&samples, each, least));
+    wall.into_iter().chain(gap).collect()
 }
 
 /// Walls are judged by the thickness below which [`MISSED_MM2`] of a single one lie.
-fn wall(samples: &[Sample], each: f64, limits: &PrintLimits) -> PrintCheck {
-    let wanted = limits.wall_nozzles * limits.nozzle;
-    let vanishing = VANISH_NOZZLES * limits.nozzle;
+fn wall(samples: &[Sample], each: f64, least: Margin) -> PrintCheck {
+    let (wanted, vanishing) = (least.wanted, least.limit);
     let thickness = |i: usize| samples[i].inwards;
     let one_side = |count: usize| each * count as f64 / 2.0;
     let thin = away_from_wider(samples, thickness, wanted);
@@ -101,9 +101,8 @@ fn wall(samples: &[Sample], each: f64, limits: &PrintLimits) -> PrintCheck {
 }
 
 /// Gaps are judged by the width below which [`FUSED_MM2`] of a single one lie.
-fn gap(samples: &[Sample], each: f64, limits: &PrintLimits) -> PrintCheck {
-    let wanted = limits.gap_nozzles * limits.nozzle;
-    let fused = FUSE_NOZZLES * limits.nozzle;
+fn gap(samples: &[Sample], each: f64, least: Margin) -> PrintCheck {
+    let (wanted, fused) = (least.wanted, least.limit);
     let width = |i: usize| samples[i].outwards;
     let one_side = |list: &[usize]| each * list.len() as f64 / 2.0;
     let (between, within): (Vec<usize>, Vec<usize>) = away_from_wider(samples, width, wanted)

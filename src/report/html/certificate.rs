@@ -7,7 +7,7 @@ use crate::certify::tolerance::{Confirmed, EYES_MM, ONE_PICTURE_RAD, Rotation, W
 use crate::formats::markup::escaped;
 use crate::geom::READING_MM;
 use crate::kinds::Crossings;
-use crate::report::certificate::{CertificateReport, NOTHING_MM, OPTIMAL, Proof};
+use crate::report::certificate::{CertificateReport, OPTIMAL, Proof};
 use crate::steps::UNSEEN_RAD;
 use std::fmt::Write as _;
 
@@ -70,7 +70,7 @@ fn surface(c: &CertificateReport) -> Vec<Answer> {
 }
 
 fn within_layer(c: &CertificateReport) -> Vec<Answer> {
-    let holds = |mm: f64| Some(mm <= NOTHING_MM);
+    let holds = |mm: f64| Some(mm <= c.nothing_mm);
     [
         (
             "Outside its layer",
@@ -83,6 +83,12 @@ fn within_layer(c: &CertificateReport) -> Vec<Answer> {
             c.clamp_mm,
             holds(c.clamp_mm),
             "How far points had to be moved along their rays to stay within the layer.",
+        ),
+        (
+            "Nothing, of both",
+            c.nothing_mm,
+            None,
+            "What is less than this, at this distance from the eye, is rounding.",
         ),
         (
             "Before its support",

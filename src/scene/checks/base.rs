@@ -5,7 +5,7 @@ use crate::diag::Diagnostic;
 use crate::geom::to_segment;
 use crate::scene::defaults;
 use crate::scene::layout::Room;
-use crate::scene::resolved::Printer;
+use crate::scene::resolved::Making;
 use crate::scene::supports::{BasePlate, Standing, shapes};
 use crate::scene::text::{Reader, error_at, short, warning_at};
 use glam::DVec2;
@@ -59,7 +59,7 @@ pub(crate) fn region(room: &Room, base: &BasePlate) -> Option<Diagnostic> {
 }
 
 /// Size of the whole forest against the printer's bed, number of pillars against patience.
-pub(crate) fn size(reader: &mut Reader, checked: &Checked, printer: &Printer) {
+pub(crate) fn size(reader: &mut Reader, checked: &Checked, making: &Making) {
     let (pillars, base, room) = (checked.pillars, checked.base, checked.room);
     let points = pillars
         .iter()
@@ -75,7 +75,10 @@ pub(crate) fn size(reader: &mut Reader, checked: &Checked, printer: &Printer) {
         return;
     };
     let height = tallest.height + base.map_or(0.0, |b| b.thickness);
-    let (size, [x, y, z]) = (hi - lo, printer.bed);
+    let Some([x, y, z]) = making.limits.bed else {
+        return;
+    };
+    let size = hi - lo;
     let fits = (size.x <= x && size.y <= y) || (size.x <= y && size.y <= x);
     let span = base
         .and_then(|b| b.span.clone())

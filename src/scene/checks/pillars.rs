@@ -1,15 +1,15 @@
-//! Pillars against each other and against the nozzle.
+//! Pillars against each other and against what can be made.
 
 use crate::diag::Diagnostic;
 use crate::scene::defaults;
-use crate::scene::resolved::Printer;
+use crate::scene::resolved::Making;
 use crate::scene::supports::{Standing, shapes};
 use crate::scene::text::{Reader, error_at, short, warning_at};
 use std::collections::BTreeMap;
 
-/// Overlapping pillars are errors, gaps that fuse on the printer warnings: the first of each pair of places in the text.
-pub(crate) fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
-    let narrow = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
+/// Overlapping pillars are errors, gaps that do not stay open warnings: the first of each pair of places in the text.
+pub(crate) fn gaps(reader: &mut Reader, pillars: &[Standing], making: &Making) {
+    let narrow = making.narrowest_gap();
     let mut worst: BTreeMap<(usize, usize, bool), Tight> = BTreeMap::new();
     let mut work = 0u64;
     for (i, j) in neighbours(pillars, narrow) {
@@ -50,12 +50,23 @@ pub(crate) fn gaps(reader: &mut Reader, pillars: &[Standing], printer: &Printer)
             }
         }
     }
-    // Twenty say as much as two hundred.
-    for tight in worst.values().take(20) {
-        let problem = gap_problem(&pillars[tight.a], &pillars[tight.b], tight, narrow);
-        reader.problems.push(problem);
+    let (mut overlaps, gaps): (Vec<Tight>, Vec<Tight>) =
+        worst.into_values().partition(|tight| tight.gap <= 0.0);
+    overlaps.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    for mut tight in [overlaps, gaps] {
+        // Three say as much as two hundred.
+        let untold: usize = tight.iter().skip(TOLD).map(|t| t.pairs).sum();
+        tight.truncate(TOLD);
+        if let Some(last) = tight.last_mut() {
+            last.pairs += untold;
+        }
+        let problem = |t: &Tight| gap_problem(&pillars[t.a], &pillars[t.b], t, making);
+        reader.problems.extend(tight.iter().map(problem));
     }
 }
+
+/// The most overlaps, and the most gaps, that are told one by one.
+const TOLD: usize = 3;
 
 /// The tightest of several pairs of pillars.
 struct Tight {
@@ -66,25 +77,28 @@ struct Tight {
     pairs: usize,
 }
 
-fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, narrow: f64) -> Diagnostic {
+fn gap_problem(a: &Standing, b: &Standing, tight: &Tight, making: &Making) -> Diagnostic {
+    let narrow = short(making.narrowest_gap());
     let more = match tight.pairs {
         1 => String::new(),
         pairs => format!(" (and {} more pairs)", pairs - 1),
     };
     if tight.gap <= 0.0 {
-        return overlap(a, b, tight.gap, &more, narrow);
+        return overlap(a, b, tight.gap, &more, making.narrowest_gap());
     }
     warning_at(
         &b.span,
         format!(
-            "the gap between {} and {} is {} mm{more}: gaps below {narrow} mm fuse when printed",
+            "the gap between {} and {} is {} mm{more}: gaps below {narrow} mm {}",
             a.name,
             b.name,
-            short(tight.gap)
+            short(tight.gap),
+            making.way.closes()
         ),
     )
     .help(format!(
-        "leave at least {narrow} mm, or change `printer: (nozzle: ...)`"
+        "leave at least {narrow} mm, or change {}",
+        making.way.finest()
     ))
 }
 
@@ -153,35 +167,51 @@ fn neighbours(pillars: &[Standing], margin: f64) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// Pillars too thin for the nozzle or too slim to stand; once per place in the text.
-pub(crate) fn slimness(reader: &mut Reader, pillars: &[Standing], printer: &Printer) {
-    let thin = defaults::THIN_WALL_NOZZLES * printer.nozzle;
+/// Pillars too thin to be made or too slim to stand; once per place in the text.
+pub(crate) fn slimness(reader: &mut Reader, pillars: &[Standing], making: &Making) {
+    let thin = making.limits.wall.map_or(0.0, |w| w.wanted);
     let mut seen = std::collections::BTreeSet::new();
     for pillar in pillars {
-        let width = shapes::narrowest(&pillar.profile);
+        let width = match pillar.round {
+            true => 2.0 * pillar.reach,
+            false => shapes::narrowest(&pillar.profile),
+        };
         if width < thin && seen.insert((pillar.span.start, 0)) {
             reader.problems.push(
                 warning_at(
                     &pillar.span,
                     format!(
-                        "{} is {} mm thin: walls below {} mm vanish or break with a {} mm nozzle",
+                        "{} is {} mm thin: walls below {} mm vanish or break with a {} mm {}",
                         pillar.name,
                         short(width),
                         short(thin),
-                        printer.nozzle
+                        short(making.line),
+                        making.way.tool()
                     ),
                 )
                 .help(format!(
-                    "make it at least {} mm wide, or change `printer: (nozzle: ...)`",
-                    short(thin)
+                    "make it at least {} mm wide, or change {}",
+                    short(thin),
+                    making.way.finest()
                 )),
             );
         }
         let slim = pillar.height / width;
-        if slim > defaults::SLIMMEST && seen.insert((pillar.span.start, 1)) {
+        let slimmest = making.limits.slimmest.unwrap_or(f64::INFINITY);
+        if slim > slimmest && seen.insert((pillar.span.start, 1)) {
             reader.problems.push(
-                warning_at(&pillar.span, format!("{} is {} times as high as it is wide: it will break or wobble while printed", pillar.name, short(slim.round())))
-                    .help(format!("keep it below {} times: thicker or lower pillars", defaults::SLIMMEST)),
+                warning_at(
+                    &pillar.span,
+                    format!(
+                        "{} is {} times as high as it is wide: it will break or wobble",
+                        pillar.name,
+                        short(slim.round())
+                    ),
+                )
+                .help(format!(
+                    "keep it below {} times: thicker or lower pillars",
+                    short(slimmest)
+                )),
             );
         }
     }

@@ -33,7 +33,9 @@ raw! {
         energy: RawEnergy,
         relief: RawRelief,
         contested: RawContested,
+        make: RawMake,
         printer: RawPrinter,
+        seen: f64,
         output: RawOutput,
     }
     struct RawModel, "a model `(name: \"owl\", file: \"owl.ply\", place: Fit(height: 60))`" {
@@ -159,6 +161,9 @@ raw! {
     struct RawWhole, "`Whole(bounded: Seen)`" { bounded: RawBounded, }
     struct RawGradient, "`Gradient(compression: 1)`" { compression: f64, }
     struct RawPrinter, "a printer `(nozzle: 0.4, bed: (256, 256, 256))`" { nozzle: f64, bed: [f64; 3], clearance: f64, }
+    struct RawPrinted, "`Printed(overhang: 10)`" { overhang: f64, slenderness: f64, }
+    struct RawMilled, "`Milled(tool: 3)`" { tool: f64, wall: f64, slenderness: f64, }
+    struct RawBuilt, "`Built(finest: 1)`" { finest: f64, slenderness: f64, }
     struct RawOutput, "output choices `(forest_glb: false, picture_size: 512)`" {
         forest_3mf: bool, forest_stl: bool, forest_glb: bool, plan: bool, views: bool, lights: bool, camouflage: bool, split: bool,
         report_html: bool, surface: bool, groups: bool, turntable: bool, picture_size: u32, plan_width: u32,
@@ -320,6 +325,14 @@ pub(crate) enum RawPrefer {
     Camouflage,
 }
 
+#[derive(Debug, Deserialize)]
+#[allow(clippy::large_enum_variant, reason = "one per scene")]
+pub(crate) enum RawMake {
+    Printed(RawPrinted),
+    Milled(RawMilled),
+    Built(RawBuilt),
+}
+
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub(crate) enum RawContested {
     First,
@@ -387,6 +400,7 @@ wanted! {
     RawCurvatureForm => "Quadratic or Conic";
     RawSteps => "`Never` or `Allowed(...)`";
     RawPrefer => "Tolerance or Camouflage";
+    RawMake => "`Printed(...)`, `Milled(...)` or `Built(...)`";
     RawContested => "First, Largest or Error";
     RawWeight => "Area or SolidAngle";
 }

@@ -107,7 +107,9 @@ fn scene_chapters() -> Vec<Chapter> {
             field("energy", "Normal(...) | Curvature(...) | Linear | Gradient(...)", energy(), "what is optimised; Linear: nothing, depth is compressed linearly into the layer"),
             field("relief", "HeightField | Whole(...)", "HeightField", "what is built: what the eye sees, or whole closed models, on other supports than pillars"),
             field("contested", "First | Largest | Error", "First", "who gets surface that two views want, or that would hide the other's: the earlier view, the one to which it is larger, or nobody"),
-            field("printer", "printer", "see printer", "what the checks have in mind"),
+            field("make", "Printed(...) | Milled(...) | Built(...)", "Printed()", "how it is made: which checks and limits apply"),
+            field("printer", "printer", "see printer", "what the checks of printing have in mind"),
+            field("seen", "arc-minutes", defaults::SEEN, "gaps nowhere wider than this go unseen: told in the report, but no failure"),
             field("output", "output", "see output", "which files are written"),
         ]),
         chapter("model", "A mesh file and where it stands.", vec![
@@ -377,7 +379,7 @@ fn other_chapters() -> Vec<Chapter> {
             field("tolerance", "length", "no limit", "how far the eye may move sideways before a step opens by two arc-minutes"),
             field("most", "count", "no limit", "largest number of step lines of a view"),
             field("price", "number", steps.price, "of a millimetre of line, in square millimetres tilted by one degree: more gives fewer steps"),
-            field("narrowest", "length", "the printer's nozzle", "narrower strips between steps are given to a neighbour"),
+            field("narrowest", "length", "the printer's nozzle; without pillars the thinnest wall that prints", "narrower strips between steps are given to a neighbour"),
             field("prefer", "Tolerance | Camouflage", "Tolerance", "where pieces are free: small steps, or large ones that confuse from elsewhere"),
         ]),
         chapter("Curvature(...)", "Keeps the curvature of the whole model (Schueller et al. 2014).", vec![
@@ -394,6 +396,19 @@ fn other_chapters() -> Vec<Chapter> {
         ]),
         chapter("Gradient(...)", "Compresses the slopes of depth, then depth itself (Weyrich et al. 2007): a baseline, not an optimum.", vec![
             field("compression", "number", defaults::GRADIENT.compression, "alpha of log(1 + alpha g) / alpha, 0 to 1000: more evens out steep and gentle slopes; 0 is Linear without silhouettes"),
+        ]),
+        chapter("Printed(...)", "By a printer: walls and gaps by its nozzle. What misses the next two, or the printer's bed, is a warning.", vec![
+            field("overhang", "length", format!("{} mm", defaults::OVERHANG), "how far reliefs may stand out over nothing: what one tower of a slicer's supports holds"),
+            field("slenderness", "number", defaults::SLIMMEST, "how many times as high as wide a pillar may be"),
+        ]),
+        chapter("Milled(...)", "By a cutter, from a block: nothing is asked of overhangs and of a bed.", vec![
+            field("tool", "length", format!("{} mm", defaults::TOOL), "width of the cutter: gaps beside carvings are as wide, narrower ones between pillars a failure"),
+            field("wall", "length", format!("{} mm", defaults::MILLED_WALL), "thinner walls break"),
+            field("slenderness", "number", defaults::SLIMMEST, "how many times as high as wide a pillar may be"),
+        ]),
+        chapter("Built(...)", "By other means, at any size: only what is seen is judged, and that it hangs together.", vec![
+            field("finest", "length", format!("{} mm", defaults::FINEST_BUILT), "the finest that can be made: gaps beside carvings are as wide"),
+            field("slenderness", "number", "no limit", "how many times as high as wide a pillar may be"),
         ]),
         chapter("printer", "Used by warnings, print checks and `build --split`.", vec![
             field("nozzle", "length", format!("{} mm", printer.nozzle), "width of a printed line"),
@@ -517,6 +532,9 @@ mod tests {
             ("Curvature(...)", fields_of::<raw::RawCurvature>()),
             ("Whole(...)", fields_of::<raw::RawWhole>()),
             ("Gradient(...)", fields_of::<raw::RawGradient>()),
+            ("Printed(...)", fields_of::<raw::RawPrinted>()),
+            ("Milled(...)", fields_of::<raw::RawMilled>()),
+            ("Built(...)", fields_of::<raw::RawBuilt>()),
             ("printer", fields_of::<raw::RawPrinter>()),
             ("output", fields_of::<raw::RawOutput>()),
         ];

@@ -3,7 +3,7 @@
 use crate::planner::{Freedom, Matters};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawFreedom, RawMatters, RawRange, RawTolerance};
-use crate::scene::resolved::Printer;
+use crate::scene::resolved::Making;
 use crate::scene::text::{Field, Reader, Span, Spanned, error_at, short, warning_at};
 
 /// A range the right way round.
@@ -67,16 +67,17 @@ pub(crate) fn count(
     [fewest, most]
 }
 
-/// Warns of a gap that no printer leaves open.
-pub(crate) fn narrow(reader: &mut Reader, gap: f64, span: &Span, printer: &Printer) {
-    let least = defaults::NARROW_GAP_NOZZLES * printer.nozzle;
+/// Warns of a gap that does not stay open.
+pub(crate) fn narrow(reader: &mut Reader, gap: f64, span: &Span, making: &Making) {
+    let least = making.narrowest_gap();
     if gap < least {
         let text = format!(
-            "`gap` is {} mm: gaps below {} mm fuse when printed",
+            "`gap` is {} mm: gaps below {} mm {}",
             short(gap),
-            short(least)
+            short(least),
+            making.way.closes()
         );
-        let help = "leave more room, or change `printer: (nozzle: ...)`";
+        let help = format!("leave more room, or change {}", making.way.finest());
         reader.problems.push(warning_at(span, text).help(help));
     }
 }

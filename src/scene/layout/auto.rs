@@ -40,7 +40,7 @@ pub(crate) fn brief(
     let (shapes, spans) = allowed(reader, raw, span, depth);
     let gap = reader.length_from(&raw.gap, "gap", 0.0);
     if let Some((gap, span)) = &gap {
-        narrow(reader, *gap, span, around.printer);
+        narrow(reader, *gap, span, around.making);
     }
     let tries = reader.count(&raw.tries, "tries", defaults::TRIES_ALLOWED);
     let seconds = reader.within(&raw.seconds, "seconds", defaults::SECONDS_ALLOWED);
@@ -77,7 +77,7 @@ pub(crate) fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Arou
         shapes: Vec::new(),
         allowed: 0,
         // What is printable as it stands need not move.
-        gap: defaults::NARROW_GAP_NOZZLES * around.printer.nozzle,
+        gap: around.making.narrowest_gap(),
         count: [1, (2 * standing).max(defaults::COUNT[1] as usize)],
         given: Vec::new(),
         seed: defaults::SEED.into(),

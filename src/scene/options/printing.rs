@@ -1,9 +1,11 @@
-//! The printer, and which files are written.
+//! The printer, how the forest is made, and which files are written.
 
+use crate::certify::printability::PrintLimits;
 use crate::scene::defaults;
-use crate::scene::language::raw::{RawOutput, RawPrinter};
-use crate::scene::resolved::{Output, Printer};
+use crate::scene::language::raw::{RawMake, RawOutput, RawPrinter};
+use crate::scene::resolved::{Making, MakingWay, Output, Printer};
 use crate::scene::text::{Field, Reader};
+use crate::support::{Support, SupportKind};
 
 /// The printer the checks have in mind.
 pub(crate) fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer {
@@ -27,6 +29,65 @@ pub(crate) fn printer(reader: &mut Reader, field: &Field<RawPrinter>) -> Printer
         nozzle,
         bed: bed.map_or(defaults::PRINTER.bed, |(b, _)| b),
         clearance,
+    }
+}
+
+/// How the forest is made: what is asked of it.
+pub(crate) fn making(reader: &mut Reader, field: &Field<RawMake>, printer: &Printer) -> Making {
+    let slimness = |reader: &mut Reader, field: &Field<f64>| {
+        let most = reader.within(field, "slenderness", defaults::SLENDERNESS_ALLOWED);
+        most.map(|(v, _)| v)
+    };
+    match reader.given(field) {
+        Some((RawMake::Milled(raw), _)) => {
+            let mut length = |field: &Field<f64>, name: &str, default: f64| {
+                let given = reader.length_from(field, name, 0.05);
+                given.map_or(default, |(v, _)| v)
+            };
+            let tool = length(&raw.tool, "tool", defaults::TOOL);
+            let wall = length(&raw.wall, "wall", defaults::MILLED_WALL);
+            let slimmest = slimness(reader, &raw.slenderness).unwrap_or(defaults::SLIMMEST);
+            Making {
+                way: MakingWay::Milled,
+                line: tool,
+                limits: PrintLimits::milled(tool, wall, slimmest),
+            }
+        }
+        Some((RawMake::Built(raw), _)) => {
+            let finest = reader.length_from(&raw.finest, "finest", 0.05);
+            Making {
+                way: MakingWay::Built,
+                line: finest.map_or(defaults::FINEST_BUILT, |(v, _)| v),
+                limits: PrintLimits {
+                    slimmest: slimness(reader, &raw.slenderness),
+                    ..PrintLimits::NONE
+                },
+            }
+        }
+        printed => {
+            let (mut overhang, mut slimmest) = (defaults::OVERHANG, defaults::SLIMMEST);
+            if let Some((RawMake::Printed(raw), _)) = printed {
+                let given = reader.length_from(&raw.overhang, "overhang", 0.0);
+                overhang = given.map_or(overhang, |(v, _)| v);
+                slimmest = slimness(reader, &raw.slenderness).unwrap_or(slimmest);
+            }
+            Making {
+                way: MakingWay::Printed,
+                line: printer.nozzle,
+                limits: PrintLimits::printed(printer.nozzle, printer.bed, overhang, slimmest),
+            }
+        }
+    }
+}
+
+impl Making {
+    /// The same for these supports: without a base each of them stands for itself.
+    pub(crate) fn of(mut self, supports: &[Support]) -> Self {
+        let has_base = |s: &Support| matches!(s.kind, SupportKind::Base { .. });
+        if !supports.iter().any(has_base) {
+            self.limits.parts = supports.len();
+        }
+        self
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawEnergy, RawPrefer, RawStepOptions, RawSteps};
-use crate::scene::resolved::Printer;
+use crate::scene::resolved::Making;
 use crate::scene::text::{Field, Reader};
 use crate::steps::{Prefer, StepLimits, StepOptions};
 
@@ -11,10 +11,10 @@ pub(crate) fn steps(
     reader: &mut Reader,
     field: &Field<RawEnergy>,
     pillars: usize,
-    printer: &Printer,
+    making: &Making,
 ) -> Option<StepOptions> {
     let default = StepOptions {
-        narrowest_mm: printer.nozzle,
+        narrowest_mm: narrowest(pillars, making),
         ..defaults::STEPS
     };
     let by_default = (pillars >= defaults::STEPS_FROM_PILLARS).then_some(default);
@@ -29,6 +29,16 @@ pub(crate) fn steps(
         None => by_default,
         Some((RawSteps::Never, _)) => None,
         Some((RawSteps::Allowed(raw), _)) => Some(step_options(reader, raw, default)),
+    }
+}
+
+/// Narrower strips are lost, millimetres. Between pillars the pieces are small, and one line is enough: asking for more makes the error of
+/// the reference forest's armadillo 1.7 degrees instead of 1.4 and loses no fewer walls. On other supports strips are as long as the
+/// model, and stand free of the support on both sides: what is not printed of them is missed.
+fn narrowest(pillars: usize, making: &Making) -> f64 {
+    match making.limits.wall {
+        Some(wall) if pillars == 0 => wall.limit,
+        _ => making.line,
     }
 }
 

@@ -4,27 +4,20 @@ use super::shapes;
 use super::standing::BasePlate;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawBase, RawDisc, RawSlab};
-use crate::scene::text::{Field, Reader, Span, warning_at};
+use crate::scene::text::{Field, Reader, Span};
 use glam::DVec2;
 
-/// The base, by default a disc that reaches beyond everything it is to hold: corners of outlines. `loose` are what falls apart without
-/// it, if anything.
+/// The base, by default a disc that reaches beyond everything it is to hold: corners of outlines.
 pub(crate) fn base(
     reader: &mut Reader,
     field: &Field<RawBase>,
     held: &[DVec2],
-    loose: Option<String>,
 ) -> Option<BasePlate> {
     match reader.given(field) {
         None => disc(reader, &RawDisc::default(), None, held),
         Some((RawBase::Disc(raw), span)) => disc(reader, raw, Some(span), held),
         Some((RawBase::Rectangle(raw), span)) => rectangle(reader, raw, span, held),
-        Some((RawBase::None, span)) => {
-            let warning =
-                loose.map(|l| warning_at(&span, format!("without a base {l} are loose parts")));
-            reader.problems.extend(warning);
-            None
-        }
+        Some((RawBase::None, _)) => None,
     }
 }
 

@@ -287,11 +287,14 @@ impl<'a> Reader<'a> {
         if scaled.abs() <= defaults::LARGEST {
             return Some(scaled);
         }
-        let metres = short(scaled / 1000.0);
+        let metres = match self.unit_name {
+            "m" => String::new(),
+            _ => format!(", that is {} m", short(scaled / 1000.0)),
+        };
         self.error(
             span,
             format!(
-                "`{name}` is {value} {}, that is {metres} m; scenes end at 10 m",
+                "`{name}` is {value} {}{metres}; scenes end at 10 m",
                 self.unit_name
             ),
         );
