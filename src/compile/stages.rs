@@ -27,6 +27,7 @@ pub(crate) fn seen<'a>(
 ) -> Result<(Vec<Sight<'a>>, Settled), Vec<Diagnostic>> {
     progress("view maps", 0.02);
     let sights = all(scene.views.par_iter().map(|v| see(v, field, scene)))?;
+    progress("contested surface", 0.12);
     settled(scene, sights)
 }
 

@@ -6,7 +6,7 @@ use crate::index::{CellId, SupportId, ViewId};
 use crate::mesh::boxes::{Box3, BoxTree};
 use crate::sight::Sight;
 use crate::support::{Slab, SupportKind};
-use crate::viewmap::Image;
+use crate::viewmap::{Image, ViewMap};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -32,12 +32,16 @@ pub(crate) struct Claim {
     /// Hulls of all its volumes and sight lines.
     volume: Frustum,
     sight: Frustum,
+    /// Its cells in the image, with the end of their sight as third coordinate.
+    image: BoxTree,
 }
 
-/// Two claims of different views, by index, and their cells that are in each other's way, rising.
+/// Two claims of different views, by rising index, and the cells of each that are in the way of the other, rising.
+///
+/// Which cell is in the way of which is not kept: where many views share a support, a cell is in the way of dozens of every other view.
 pub(crate) struct Meeting {
     pub claims: [usize; 2],
-    pub pairs: Vec<[CellId; 2]>,
+    pub cells: [Vec<CellId>; 2],
 }
 
 /// What all views claim, by view, then support.
@@ -73,6 +77,7 @@ fn claim(sight: &Sight, view: ViewId, support: SupportId, cells: Vec<CellId>) ->
         .iter()
         .map(|c| reach(&sight.image, &slab, support, *c))
         .collect();
+    let image = BoxTree::new(&image_boxes(map, &cells, &reach));
     let first = map.triangle(cells[0])[0];
     let (lo, hi) = cells
         .iter()
@@ -93,6 +98,7 @@ fn claim(sight: &Sight, view: ViewId, support: SupportId, cells: Vec<CellId>) ->
         reach,
         volume: Frustum::new(plane.eye, &rays, normal, near, far),
         sight: Frustum::new(plane.eye, &rays, normal, 0.0, sight),
+        image,
     })
 }
 
@@ -144,47 +150,88 @@ fn surface_reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -
 
 /// All cells of different views that are in each other's way: the volume of one meets the sight lines of the other.
 pub(crate) fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
-    let mut found: Vec<([usize; 2], Vec<[CellId; 2]>)> = (0..claims.len())
-        .into_par_iter()
-        .flat_map_iter(|a| blocked(sights, claims, a))
-        .collect();
-    found.sort_by_key(|m| m.0);
-    let mut merged: Vec<Meeting> = Vec::new();
-    for (key, pairs) in found {
-        match merged.last_mut().filter(|m| m.claims == key) {
-            Some(meeting) => meeting.pairs.extend(pairs),
-            None => merged.push(Meeting { claims: key, pairs }),
-        }
-    }
-    for meeting in &mut merged {
-        meeting.pairs.sort_unstable();
-        meeting.pairs.dedup();
-    }
-    merged
+    let others = |a: usize| (a + 1..claims.len()).map(move |b| [a, b]);
+    let pairs: Vec<[usize; 2]> = (0..claims.len()).flat_map(others).collect();
+    let meeting = |pair: &[usize; 2]| {
+        let sides = pair.map(|p| Side::all(&claims[p]));
+        let cells = in_way(sights, sides)?;
+        Some(Meeting {
+            claims: *pair,
+            cells,
+        })
+    };
+    pairs.par_iter().filter_map(meeting).collect()
 }
 
-/// What stands in the sight lines of claim `a`, claim by claim.
-fn blocked(sights: &[Sight], claims: &[Claim], a: usize) -> Vec<([usize; 2], Vec<[CellId; 2]>)> {
-    let seen = &claims[a];
-    let others: Vec<usize> = (0..claims.len())
-        .filter(|b| claims[*b].view != seen.view && seen.sight.meets(&claims[*b].volume))
-        .collect();
-    if others.is_empty() {
-        return Vec::new();
+/// Some cells of a claim.
+pub(crate) struct Side<'a> {
+    claim: &'a Claim,
+    /// By number of the cell in the claim.
+    among: Vec<bool>,
+}
+
+impl<'a> Side<'a> {
+    fn all(claim: &'a Claim) -> Self {
+        let among = vec![true; claim.cells.len()];
+        Self { claim, among }
     }
-    let tree = BoxTree::new(&image_boxes(sights, seen));
-    let in_way = others.into_iter().filter_map(|b| {
-        let pairs = cells_in_way(sights, seen, &tree, &claims[b]);
-        let ordered = |[x, y]: [CellId; 2]| if a < b { [x, y] } else { [y, x] };
-        let pairs: Vec<[CellId; 2]> = pairs.into_iter().map(ordered).collect();
-        (!pairs.is_empty()).then_some(([a.min(b), a.max(b)], pairs))
-    });
-    in_way.collect()
+
+    /// Those of `cells` (rising) for which `wanted` holds.
+    pub(crate) fn of(claim: &'a Claim, cells: &[CellId], wanted: impl Fn(CellId) -> bool) -> Self {
+        let is_among = |c: &CellId| cells.binary_search(c).is_ok() && wanted(*c);
+        let among = claim.cells.iter().map(is_among).collect();
+        Self { claim, among }
+    }
+}
+
+/// The cells of two sides that are in each other's way, rising; `None` if there are none.
+pub(crate) fn in_way(sights: &[Sight], sides: [Side; 2]) -> Option<[Vec<CellId>; 2]> {
+    let [a, b] = [sides[0].claim, sides[1].claim];
+    if a.view == b.view {
+        return None;
+    }
+    let [mut found, mut other] = [&sides[0], &sides[1]].map(|s| vec![false; s.among.len()]);
+    if a.sight.meets(&b.volume) {
+        block(sights, [&sides[0], &sides[1]], [&mut found, &mut other]);
+    }
+    if b.sight.meets(&a.volume) {
+        block(sights, [&sides[1], &sides[0]], [&mut other, &mut found]);
+    }
+    let cells = |claim: &Claim, found: &[bool]| {
+        let hit = claim.cells.iter().zip(found).filter(|(_, f)| **f);
+        hit.map(|(c, _)| *c).collect::<Vec<_>>()
+    };
+    let cells = [cells(a, &found), cells(b, &other)];
+    (!cells[0].is_empty()).then_some(cells)
+}
+
+/// Marks the cells where the volume of the second side's meets the sight of the first side's. A pair of which both are marked already is
+/// not looked at, so that what is found costs as much as there are cells, not pairs of cells.
+fn block(sights: &[Sight], [seen, body]: [&Side; 2], [blocked, blocking]: [&mut Vec<bool>; 2]) {
+    let (seen, among) = (seen.claim, &seen.among);
+    for i in (0..body.among.len()).filter(|i| body.among[*i]) {
+        let volume = body.claim.volume_of(sights, i);
+        let Some(query) = shadow(seen, &volume) else {
+            continue;
+        };
+        // What covers all of the image would be held against every cell of it.
+        if !query.lo.truncate().is_finite() && !volume.meets(&seen.sight) {
+            continue;
+        }
+        seen.image.overlapping(&query, |j| {
+            let j = j.at();
+            let is_known = !among[j] || (blocked[j] && blocking[i]);
+            if !is_known && seen.sight_of(sights, j).meets(&volume) {
+                blocked[j] = true;
+                blocking[i] = true;
+            }
+            true
+        });
+    }
 }
 
 /// The cells in the image, with the end of their sight as third coordinate.
-fn image_boxes(sights: &[Sight], claim: &Claim) -> Vec<Box3> {
-    let map = &sights[claim.view].image.map;
+fn image_boxes(map: &ViewMap, cells: &[CellId], reach: &[Reach]) -> Vec<Box3> {
     let boxed = |(c, reach): (&CellId, &Reach)| {
         let [p, q, r] = map.triangle(*c);
         Box3 {
@@ -192,28 +239,7 @@ fn image_boxes(sights: &[Sight], claim: &Claim) -> Vec<Box3> {
             hi: p.max(q).max(r).extend(reach.sight),
         }
     };
-    claim.cells.iter().zip(&claim.reach).map(boxed).collect()
-}
-
-/// Pairs of cells of `seen` and of `other` where the volume of the latter meets the sight of the former.
-fn cells_in_way(sights: &[Sight], seen: &Claim, tree: &BoxTree, other: &Claim) -> Vec<[CellId; 2]> {
-    let mut pairs = Vec::new();
-    for (i, b) in other.cells.iter().enumerate() {
-        let volume = other.volume_of(sights, i);
-        if !volume.meets(&seen.sight) {
-            continue;
-        }
-        let Some(query) = shadow(seen, &volume) else {
-            continue;
-        };
-        tree.overlapping(&query, |j| {
-            if seen.sight_of(sights, j.at()).meets(&volume) {
-                pairs.push([seen.cells[j.at()], *b]);
-            }
-            true
-        });
-    }
-    pairs
+    cells.iter().zip(reach).map(boxed).collect()
 }
 
 /// The part of the image a body covers, with the least distance of it as third coordinate; `None` if it lies behind the eye.

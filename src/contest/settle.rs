@@ -1,6 +1,6 @@
 //! Settles all conflicts by a rule.
 
-use super::claims::{Claim, Meeting, claims, meetings};
+use super::claims::{Claim, Meeting, Side, claims, in_way, meetings};
 use crate::geom::SQUARE_ARCMIN;
 use crate::index::CellId;
 use crate::sight::{Loss, Sight};
@@ -68,7 +68,7 @@ pub fn settle(sights: &[Sight], rule: Contested) -> Result<Settlement, Vec<Dispu
         return Err(errors.collect());
     }
     let turn = turns(sights, &claims, &meetings, rule);
-    settled.lost = losses(sights.len(), &claims, &meetings, &turn);
+    settled.lost = losses(sights, &claims, &meetings, &turn);
     for meeting in &meetings {
         let loser = meeting.claims[usize::from(turn[meeting.claims[0]] < turn[meeting.claims[1]])];
         let lost_by = sights[claims[loser].view].name();
@@ -110,14 +110,6 @@ fn turns(sights: &[Sight], claims: &[Claim], meetings: &[Meeting], rule: Contest
     turn
 }
 
-/// The cells of side `side` of a meeting, rising.
-fn cells_of(meeting: &Meeting, side: usize) -> Vec<CellId> {
-    let mut cells: Vec<CellId> = meeting.pairs.iter().map(|p| p[side]).collect();
-    cells.sort_unstable();
-    cells.dedup();
-    cells
-}
-
 /// Solid angle of a claim's cells that are in any conflict.
 fn contested_arcmin2(
     sights: &[Sight],
@@ -128,7 +120,7 @@ fn contested_arcmin2(
     let mut cells = Vec::new();
     for meeting in meetings {
         let side = meeting.claims.iter().position(|p| *p == claim);
-        cells.extend(side.iter().flat_map(|side| cells_of(meeting, *side)));
+        cells.extend(side.iter().flat_map(|side| &meeting.cells[*side]));
     }
     cells.sort_unstable();
     cells.dedup();
@@ -142,39 +134,64 @@ fn arcmin2(sights: &[Sight], claim: &Claim, cells: &[CellId]) -> f64 {
 }
 
 /// Serves all claims in turn.
-fn losses(views: usize, claims: &[Claim], meetings: &[Meeting], turn: &[usize]) -> Vec<Vec<Loss>> {
-    let mut lost: Vec<Vec<Loss>> = vec![Vec::new(); views];
+fn losses(
+    sights: &[Sight],
+    claims: &[Claim],
+    meetings: &[Meeting],
+    turn: &[usize],
+) -> Vec<Vec<Loss>> {
+    let mut lost: Vec<Vec<Loss>> = vec![Vec::new(); sights.len()];
+    let mut met: Vec<Vec<(&Meeting, usize)>> = vec![Vec::new(); claims.len()];
+    for meeting in meetings {
+        (0..2).for_each(|side| met[meeting.claims[side]].push((meeting, side)));
+    }
     let mut order: Vec<usize> = (0..claims.len()).collect();
     order.sort_by_key(|p| turn[*p]);
     for p in order {
+        // Rising; the earliest meeting that takes a cell is named as its owner.
         let mut own: Vec<Loss> = Vec::new();
-        for meeting in meetings {
-            let Some(side) = meeting.claims.iter().position(|x| *x == p) else {
-                continue;
-            };
+        for &(meeting, side) in &met[p] {
             let other = meeting.claims[1 - side];
             if turn[other] > turn[p] {
                 continue;
             }
             let Claim { view, support, .. } = claims[other];
-            let kept = |cell: CellId| {
-                let gone = &lost[view];
-                gone.binary_search_by_key(&cell, |l| l.cell).is_err()
-            };
-            let taken = meeting.pairs.iter().filter(|pair| kept(pair[1 - side]));
-            own.extend(taken.map(|pair| Loss {
-                cell: pair[side],
+            let taken = taken(sights, claims, (meeting, side), &own, &lost[view]);
+            own.extend(taken.into_iter().map(|cell| Loss {
+                cell,
                 owner: view,
                 support,
             }));
+            own.sort_by_key(|l| l.cell);
         }
         let all = &mut lost[claims[p].view];
         all.extend(own);
-        // Stable: the earliest pair of claims that takes a cell is named as its owner.
         all.sort_by_key(|l| l.cell);
-        all.dedup_by_key(|l| l.cell);
     }
     lost
+}
+
+/// The cells of one side of a meeting, but for those that are `lost` already, that are in the way of cells that the other side kept;
+/// `gone` are those that its view did not keep.
+fn taken(
+    sights: &[Sight],
+    claims: &[Claim],
+    (meeting, side): (&Meeting, usize),
+    lost: &[Loss],
+    gone: &[Loss],
+) -> Vec<CellId> {
+    let among = |losses: &[Loss], c: CellId| losses.binary_search_by_key(&c, |l| l.cell).is_ok();
+    let [own, others] = [side, 1 - side].map(|s| &meeting.cells[s]);
+    let left = own.iter().copied().filter(|c| !among(lost, *c));
+    if others.iter().all(|c| !among(gone, *c)) {
+        return left.collect();
+    }
+    let [own_claim, other_claim] = [side, 1 - side].map(|s| &claims[meeting.claims[s]]);
+    let sides = [
+        Side::of(own_claim, own, |c| !among(lost, c)),
+        Side::of(other_claim, others, |c| !among(gone, c)),
+    ];
+    in_way(sights, sides).map_or(Vec::new(), |[own, _]| own)
 }
 
 fn contest(
@@ -186,15 +203,15 @@ fn contest(
 ) -> Contest {
     let own = &claims[meeting.claims[side]];
     let other = &claims[meeting.claims[1 - side]];
-    let cells = cells_of(meeting, side);
+    let cells = &meeting.cells[side];
     let Sight { image, .. } = &sights[own.view];
     let supports = image.field.supports;
     Contest {
         with_view: sights[other.view].name().to_owned(),
         support: supports[own.support].name.clone(),
         with_support: supports[other.support].name.clone(),
-        arcmin2: arcmin2(sights, own, &cells),
-        place_mm: place(sights, own, &cells),
+        arcmin2: arcmin2(sights, own, cells),
+        place_mm: place(sights, own, cells),
         lost_by: lost_by.to_owned(),
     }
 }
