@@ -10,11 +10,11 @@ use super::language::raw::RawScene;
 use super::layout::Around;
 use super::models::{Model, load, lower, models};
 use super::options::{energy, printing, steps, whole};
-use super::request::{Purpose, ReadFile};
-use super::resolved::{Output, Scene};
+use super::request::{Purpose, ReadFile, Told};
+use super::resolved::Scene;
 use super::text::document::{self, Document};
 use super::text::lexer;
-use super::text::{Field, Reader};
+use super::text::{Field, Reader, printable, warning_at};
 use super::views::{Draft, Eye, drafts, view};
 use crate::diag::{Diagnostic, Severity, Warned};
 use crate::kinds::{Bounded, ReliefKind};
@@ -25,7 +25,7 @@ use crate::mimic::Energy;
 /// # Errors
 /// Every problem found, warnings among them, at least one of them an error.
 pub fn resolve(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>> {
-    resolve_for(text, read, Purpose::Build)
+    resolve_for(text, read, Purpose::Build, &|_| ())
 }
 
 /// As [`resolve`], but pillars that the scene lists are the given ones of a [`Brief`](crate::planner::Brief), free to be moved:
@@ -34,20 +34,25 @@ pub fn resolve(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnost
 /// # Errors
 /// As [`resolve`].
 pub fn resolve_to_mend(text: &str, read: ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>> {
-    resolve_for(text, read, Purpose::Mend)
+    resolve_for(text, read, Purpose::Mend, &|_| ())
 }
 
-fn resolve_for(
+/// [`resolve`] or [`resolve_to_mend`], by the purpose, for those who wait: tells as it goes on to models, and to those it simplifies.
+///
+/// # Errors
+/// As [`resolve`].
+pub fn resolve_for(
     text: &str,
     read: ReadFile,
     purpose: Purpose,
+    told: Told,
 ) -> Result<Warned<Scene>, Vec<Diagnostic>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (problems, scene) = document::read(text, |text| match parse(text) {
         Err(problems) => (problems, None),
         Ok(raw) => {
             let mut reader = Reader::new(text, SCENE);
-            let scene = build(&mut reader, &raw, read, purpose);
+            let scene = build(&mut reader, &raw, read, purpose, told);
             (reader.problems, scene)
         }
     });
@@ -74,7 +79,13 @@ fn parse(text: &str) -> Result<RawScene, Vec<Diagnostic>> {
     .parse(b'(')
 }
 
-fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) -> Option<Scene> {
+fn build(
+    reader: &mut Reader,
+    raw: &RawScene,
+    read: ReadFile,
+    purpose: Purpose,
+    told: Told,
+) -> Option<Scene> {
     let scene_span = lexer::trimmed(reader.text);
     if let Some((unit, _)) = reader.given(&raw.units) {
         (reader.unit, reader.unit_name) = unit.measure();
@@ -85,6 +96,9 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     let printer = printing::printer(reader, &raw.printer);
     let making = printing::making(reader, &raw.make, &printer);
     let seen = reader.within(&raw.seen, "seen", defaults::SEEN_ALLOWED);
+    if Some(drafts.len()) == view_count(raw) {
+        warn_of_unseen(reader, models.as_deref().unwrap_or_default(), &drafts);
+    }
     let eyes: Vec<Eye> = drafts.iter().map(Draft::eye).collect();
     let around = Around {
         read,
@@ -102,7 +116,13 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     carriers.check(reader, &eyes, &around);
     whole::check_supports(reader, raw, held, carriers.bodies());
     let models = models.as_deref_mut().unwrap_or_default();
-    load_all(reader, models, read, held, &output);
+    told("models");
+    load_all(reader, models, read, held);
+    if models.iter().any(Model::is_too_fine) {
+        told("simplifying models");
+    }
+    lower(reader, models, &output);
+    told("scene");
     let adjusted = carriers.adjusted(&around.views);
     let upright = carriers.most_pillars() > 0;
     let drafts = drafts.into_iter().zip(&adjusted);
@@ -134,21 +154,29 @@ fn build(reader: &mut Reader, raw: &RawScene, read: ReadFile, purpose: Purpose) 
     })
 }
 
-/// Reads the files of all models, and makes those smaller that have too many vertices.
-fn load_all(
-    reader: &mut Reader,
-    models: &mut [Model],
-    read: ReadFile,
-    held: Option<Bounded>,
-    output: &Output,
-) {
+/// Reads the files of all models.
+fn load_all(reader: &mut Reader, models: &mut [Model], read: ReadFile, held: Option<Bounded>) {
     for model in models.iter_mut() {
         load(reader, model, read);
         if let (Some(_), Some(mesh)) = (held, &model.mesh) {
             whole::check_closed(reader, mesh, &model.name, &model.file_span);
         }
     }
-    lower(reader, models, output);
+}
+
+/// Models that nobody is to see: most likely a name was forgotten.
+fn warn_of_unseen(reader: &mut Reader, models: &[Model], drafts: &[Draft]) {
+    let shown = |name: &str| {
+        let mut all = drafts.iter().flat_map(|d| &d.models);
+        all.any(|(shown, _)| shown == name)
+    };
+    for model in models.iter().filter(|m| !shown(&m.name)) {
+        let name = printable(&model.name);
+        let text = format!("model \"{name}\" is in no view, so nothing of it will be made");
+        let help = format!("add it to the `models` of a view: models: [\"{name}\"]; or remove it");
+        let warning = warning_at(&model.span, text).help(help);
+        reader.problems.push(warning);
+    }
 }
 
 /// How many views the scene lists, readable or not.

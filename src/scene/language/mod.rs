@@ -3,5 +3,6 @@
 pub(crate) mod quality;
 pub(crate) mod raw;
 pub(crate) mod schema;
+pub(crate) mod starter;
 pub(crate) mod template;
 mod units;

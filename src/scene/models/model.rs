@@ -137,6 +137,12 @@ pub(crate) fn lower(reader: &mut Reader, models: &mut [Model], output: &Output) 
 }
 
 impl Model {
+    /// Whether it has more vertices than are wanted.
+    pub(crate) fn is_too_fine(&self) -> bool {
+        let counts = self.mesh.as_ref().zip(self.detail);
+        counts.is_some_and(|(mesh, most)| mesh.vertices.len() > most)
+    }
+
     fn lower(&mut self, output: &Output) -> Option<Diagnostic> {
         let (mesh, most) = (self.mesh.as_ref()?, self.detail?);
         let original = self.original.as_ref()?;
