@@ -40,6 +40,8 @@ pub struct Diagnostic {
     pub label: Option<String>,
     /// What to type, one line each.
     pub help: Vec<String>,
+    /// Whether the program failed: nothing need be wrong with what the user gave.
+    pub fault: bool,
 }
 
 impl Diagnostic {
@@ -50,6 +52,7 @@ impl Diagnostic {
             place: None,
             label: None,
             help: Vec::new(),
+            fault: false,
         }
     }
 
@@ -80,6 +83,12 @@ impl Diagnostic {
 
     pub fn help(mut self, line: impl Into<String>) -> Self {
         self.help.push(line.into());
+        self
+    }
+
+    /// The same as a fault of the program's own.
+    pub fn fault(mut self) -> Self {
+        self.fault = true;
         self
     }
 

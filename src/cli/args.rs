@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 const AFTER: &str = "\
 A new forest in three commands:
-  pillarforest init              writes scene.ron and a model to start from
+  pillarforest init fox.obj      writes scene.ron with your model; without one, with an owl
   pillarforest check             reads everything, says what is wrong, writes nothing
   pillarforest build             writes the forest, plan, pictures and report to out/scene/
 
-Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, 3 built, but not all that is promised holds.";
+Exit codes: 0 all well, 1 scene or input error, 2 wrong usage, or no place to write to, 3 built, but not all that is promised holds,
+4 pillarforest itself failed, or the system under it (a full disk).";
 
 /// Turns a scene of models, eyes and pillars into a printable pillar forest: each model appears from its own eye only.
 #[derive(Debug, Parser)]
@@ -75,11 +76,12 @@ pub(super) enum Effort {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Write a commented scene, and the model it shows, to start from
+    /// Write a commented scene to start from, with your models or with an owl
     Init {
-        /// Where to write the scene; the model goes to models/ beside it
-        #[arg(default_value = "scene.ron", value_hint = ValueHint::FilePath)]
-        scene: PathBuf,
+        /// Models that the scene is to show (STL, 3MF, OBJ, PLY), each from an eye of its own; and where to write the scene, if that is
+        /// not scene.ron. Models that lie elsewhere are copied to models/ beside the scene
+        #[arg(value_name = "MODELS|SCENE.ron", value_hint = ValueHint::FilePath)]
+        paths: Vec<PathBuf>,
         /// Overwrite files that exist
         #[arg(long)]
         force: bool,
@@ -142,6 +144,10 @@ pub(super) enum Command {
         /// Print the findings as JSON
         #[arg(long)]
         json: bool,
+        /// Check nothing, but draw every file from its six sides to out/<file>-sides.png, with the words that turn each to the eye
+        /// (`up: "y", front: "z"`)
+        #[arg(long, conflicts_with = "json")]
+        views: bool,
     },
     /// Make the figures of the paper again: scenes, pictures, numbers, and a page with what the paper says beside them
     Figures(FigureArgs),

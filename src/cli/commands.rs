@@ -1,28 +1,29 @@
 //! What each command does, in order.
 
 use super::args::{Cli, Command, Global, SceneArgs, Style};
-use super::ending::{NOT_PRINTABLE, NOTHING, WELL, WRONG_INPUT, WRONG_USAGE, count, fail, say};
+use super::ending::{
+    FAILED, NOT_PRINTABLE, NOTHING, WELL, WRONG_INPUT, WRONG_USAGE, count, fail, say,
+};
 use super::load::{Loaded, load};
 use super::messages::Messages;
 use super::plan::{self, Search};
 use super::progress::Reporter;
-use super::write::{self, Destination};
-use super::{figures, files};
+use super::write::Destination;
+use super::{figures, init, inspect};
 use clap::CommandFactory;
 use pillarforest::compile::{self, Build, Drawn, Progress, Stop};
-use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::scene::{self, Scene};
+use pillarforest::diag::Diagnostic;
+use pillarforest::scene::{self, Purpose, Scene};
 use pillarforest::support::Support;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const NOTHING_YET: &str = "Nothing was written; `--force` writes it all the same.";
 
 /// Runs the command; gives the exit code.
-pub(super) fn run(cli: &Cli) -> u8 {
-    let messages = Messages::new(&cli.global);
+pub(super) fn run(cli: &Cli, messages: &Messages) -> u8 {
     match &cli.command {
-        Command::Init { scene, force } => init(&messages, scene, *force),
-        Command::Check { scene } => check(&messages, &cli.global, scene),
+        Command::Init { paths, force } => init::run(messages, paths, *force),
+        Command::Check { scene } => check(messages, &cli.global, scene),
         Command::Build {
             scene,
             output,
@@ -38,28 +39,30 @@ pub(super) fn run(cli: &Cli) -> u8 {
                 output: output.as_deref(),
                 force: *force,
             };
-            make(&messages, &cli.global, &scene, &errand)
+            make(messages, &cli.global, &scene, &errand)
         }
         Command::Plan { scene, search } => {
-            plan::run(&messages, &cli.global, scene, search, Search::Plan)
+            plan::run(messages, &cli.global, scene, search, Search::Plan)
         }
         Command::Repair { scene, search } => {
-            plan::run(&messages, &cli.global, scene, search, Search::Repair)
+            plan::run(messages, &cli.global, scene, search, Search::Repair)
         }
         Command::View { scene, output } => {
             let errand = Errand::of(Goal::Plan, output.as_deref());
-            make(&messages, &cli.global, scene, &errand)
+            make(messages, &cli.global, scene, &errand)
         }
         Command::Render { scene, output } => {
             let errand = Errand::of(Goal::Pictures, output.as_deref());
-            make(&messages, &cli.global, scene, &errand)
+            make(messages, &cli.global, scene, &errand)
         }
-        Command::Inspect { files, json } => inspect(
-            &messages,
-            files,
-            *json || cli.global.diagnostics == Style::Json,
-        ),
-        Command::Figures(args) => figures::run(&messages, &cli.global, args),
+        Command::Inspect { files, json, views } => {
+            let json = *json || cli.global.diagnostics == Style::Json;
+            match views {
+                true => inspect::draw(messages, files),
+                false => inspect::run(messages, files, json),
+            }
+        }
+        Command::Figures(args) => figures::run(messages, &cli.global, args),
         Command::Schema => say(&scene::schema()),
         Command::Completions { shell } => completions(*shell),
     }
@@ -71,58 +74,16 @@ fn completions(shell: clap_complete::Shell) -> u8 {
     say(&String::from_utf8_lossy(&script))
 }
 
-fn init(messages: &Messages, path: &Path, force: bool) -> u8 {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let files = [
-        (path.to_path_buf(), scene::TEMPLATE.as_bytes()),
-        (
-            folder.join(scene::TEMPLATE_MODEL_FILE),
-            scene::TEMPLATE_MODEL,
-        ),
-    ];
-    let in_way: Vec<Diagnostic> = files
-        .iter()
-        .filter(|(path, bytes)| {
-            path.exists() && !force && std::fs::read(path).ok().as_deref() != Some(*bytes)
-        })
-        .map(|(path, _)| {
-            Diagnostic::error(format!("\"{}\" exists already", path.display()))
-                .help("`--force` overwrites it; or give another name: `pillarforest init my.ron`")
-        })
-        .collect();
-    if !in_way.is_empty() {
-        return fail(messages, &in_way, None, WRONG_INPUT);
-    }
-    for (path, bytes) in &files {
-        if let Err(error) = write::into_file(path, bytes) {
-            let problem =
-                Diagnostic::error(format!("cannot write \"{}\": {error}", path.display()));
-            return fail(messages, &[problem], None, WRONG_INPUT);
-        }
-    }
-    let scene_argument = if path == Path::new("scene.ron") {
-        String::new()
-    } else {
-        format!(" {}", path.display())
-    };
-    say(&format!(
-        "wrote {} and {}\nnext: pillarforest build{scene_argument}\n",
-        files[0].0.display(),
-        files[1].0.display()
-    ))
-}
-
 /// Runs one of the pipeline's goals with progress, and prints the `warnings` that it gives. The error code has been explained to the
 /// user.
 fn compile<T>(
     messages: &Messages,
-    global: &Global,
+    reporter: &Reporter,
     args: &SceneArgs,
     loaded: &Loaded,
     goal: impl FnOnce(&Scene, Progress, Stop) -> Result<T, Vec<Diagnostic>>,
     warnings: impl FnOnce(&T) -> &[Diagnostic],
-) -> Result<(T, Reporter), u8> {
-    let reporter = Reporter::new(global.quiet, global.verbose);
+) -> Result<T, u8> {
     let stop = loaded.time_is_up();
     let progress = |stage: &str, share| reporter.report(stage, share);
     let result = goal(&loaded.scene, &progress, &stop);
@@ -136,16 +97,17 @@ fn compile<T>(
     if args.timings {
         reporter.tell(messages.is_json());
     }
-    Ok((done, reporter))
+    Ok(done)
 }
 
 fn check(messages: &Messages, global: &Global, args: &SceneArgs) -> u8 {
-    let Some(loaded) = load(messages, args, scene::resolve) else {
+    let reporter = Reporter::new(global.quiet, global.verbose);
+    let Some(loaded) = load(messages, args, Purpose::Build, &reporter) else {
         return WRONG_INPUT;
     };
-    match compile(messages, global, args, &loaded, compile::check, |w| w) {
+    match compile(messages, &reporter, args, &loaded, compile::check, |w| w) {
         Err(code) => code,
-        Ok((told, _)) => {
+        Ok(told) => {
             let views = count(loaded.scene.views.len(), "view");
             let pillars = match &loaded.scene.brief {
                 Some(_) => "pillars to be found".to_string(),
@@ -181,6 +143,15 @@ enum Goal {
 }
 
 impl Goal {
+    /// The files that it may write.
+    fn names(self, scene: &Scene) -> Vec<String> {
+        match self {
+            Self::Forest => compile::build_names(scene),
+            Self::Plan => compile::plan_names(scene),
+            Self::Pictures => compile::picture_names(scene),
+        }
+    }
+
     fn run(self, scene: &Scene, progress: Progress, stop: Stop) -> Result<Build, Vec<Diagnostic>> {
         // Plans and pictures promise nothing.
         let unjudged = |drawn: Drawn| Build {
@@ -225,7 +196,8 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
         Ok(destination) => destination,
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
-    let Some(loaded) = load(messages, args, scene::resolve) else {
+    let reporter = Reporter::new(global.quiet, global.verbose);
+    let Some(loaded) = load(messages, args, Purpose::Build, &reporter) else {
         return WRONG_INPUT;
     };
     if errand.goal == Goal::Forest
@@ -236,9 +208,14 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
             .help("give a directory: `-o out/pieces`");
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
+    let names = errand.goal.names(&loaded.scene);
+    let names = names.iter().map(String::as_str);
+    if let Err(problems) = destination.clear(names, &args.scene, &loaded.read) {
+        return fail(messages, &problems, None, WRONG_USAGE);
+    }
     let goal =
         |scene: &Scene, progress: Progress, stop: Stop| errand.goal.run(scene, progress, stop);
-    let (build, reporter) = match compile(messages, global, args, &loaded, goal, |b| &b.warnings) {
+    let build = match compile(messages, &reporter, args, &loaded, goal, |b| &b.warnings) {
         Ok(done) => done,
         Err(code) => return code,
     };
@@ -255,47 +232,20 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
         }
         messages.closing(&build.failures, "Written all the same.");
     }
+    // Once more: minutes have passed.
     let names = build.files.iter().map(|f| f.path.as_str());
-    if let Err(problem) = destination.spares(names, &args.scene, &loaded.read) {
-        return fail(messages, &[problem], None, WRONG_USAGE);
+    if let Err(problems) = destination.clear(names, &args.scene, &loaded.read) {
+        return fail(messages, &problems, None, WRONG_USAGE);
     }
     match destination.write(&build.files) {
-        Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
+        Err(problem) => fail(messages, &[problem], None, FAILED),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
             let done = format!("wrote {}  {}", path.display(), build.summary);
-            say(&format!("{done}  ({seconds:.1} s)\n"));
-            code
-        }
-    }
-}
-
-fn inspect(messages: &Messages, paths: &[PathBuf], json: bool) -> u8 {
-    let mut code = WELL;
-    for path in paths {
-        let name = path.display().to_string();
-        let found =
-            files::regular(path).and_then(|bytes| pillarforest::intake::inspect(&name, &bytes));
-        match found {
-            Err(problem) => {
-                messages.print(&[problem], None);
-                code = WRONG_INPUT;
-            }
-            Ok(Warned { value, warnings }) => {
-                let denied = messages.print(&warnings, None);
-                say(&if json {
-                    format!("{}\n", serde_json::json!(value))
-                } else {
-                    format!("{value}")
-                });
-                if code != WRONG_INPUT && !value.printable() {
-                    code = NOT_PRINTABLE;
-                }
-                if denied {
-                    code = WRONG_INPUT;
-                }
+            match say(&format!("{done}  ({seconds:.1} s)\n")) {
+                WELL => code,
+                failed => failed,
             }
         }
     }
-    code
 }

@@ -1,12 +1,12 @@
 //! `figures`: every case is a build of its own, by this program, so that its time and memory are those that anybody would measure.
 
 use super::args::{FigureArgs, Global};
-use super::ending::{NOT_PRINTABLE, WELL, WRONG_INPUT, WRONG_USAGE, fail, say};
+use super::ending::{FAILED, NOT_PRINTABLE, WELL, WRONG_INPUT, WRONG_USAGE, fail, say};
 use super::load::libraries;
-use super::messages::Messages;
+use super::messages::{Messages, tell};
 use super::write::Destination;
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::{self, Done, FIGURES, Figure, Job, Made, Workshop};
+use pillarforest::figures::{self, Done, FIGURES, FILES, Figure, Job, Made, Workshop};
 use pillarforest::report::Report;
 use pillarforest::scene::nearest;
 use serde_json::Value;
@@ -41,23 +41,25 @@ pub(super) fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8
         }
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
+    if let Err(problems) = destination.clear(FILES, Path::new("figures"), &[]) {
+        return fail(messages, &problems, None, WRONG_USAGE);
+    }
     let start = Instant::now();
     let done = made(&wanted, args, global);
     match destination.write(&figures::files(&done)) {
-        Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
+        Err(problem) => fail(messages, &[problem], None, FAILED),
         Ok(page) => {
-            done.iter().for_each(tell);
+            let mut text: String = done.iter().map(told_of).collect();
             let well = done.iter().filter(|d| d.ok()).count();
-            say(&format!(
+            text.push_str(&format!(
                 "wrote {}  {well} of {} figures hold  ({:.1} s)\n",
                 page.display(),
                 done.len(),
                 start.elapsed().as_secs_f64()
             ));
-            if well == done.len() {
-                WELL
-            } else {
-                NOT_PRINTABLE
+            match say(&text) {
+                WELL if well < done.len() => NOT_PRINTABLE,
+                said => said,
             }
         }
     }
@@ -86,14 +88,14 @@ fn wanted(names: &[String]) -> Result<Vec<Figure>, Vec<Diagnostic>> {
 fn made(wanted: &[Figure], args: &FigureArgs, global: &Global) -> Vec<Done> {
     let mut build = |job: &Job| {
         if !global.quiet {
-            eprintln!("       {}", job.folder);
+            tell(&format!("       {}", job.folder));
         }
         built(job, args)
     };
     let mut workshop = Workshop::new(&mut build);
     let one = |figure: &Figure| {
         if !global.quiet {
-            eprintln!("{}: {}", figure.paper, figure.title);
+            tell(&format!("{}: {}", figure.paper, figure.title));
         }
         figures::make(*figure, &mut workshop)
     };
@@ -101,30 +103,31 @@ fn made(wanted: &[Figure], args: &FigureArgs, global: &Global) -> Vec<Done> {
 }
 
 /// What a figure claims, and what of it holds.
-fn tell(done: &Done) {
+fn told_of(done: &Done) -> String {
     let Done {
         figure,
         findings,
         failure,
     } = done;
-    say(&format!("{}: {}\n", figure.paper, figure.title));
+    let mut text = format!("{}: {}\n", figure.paper, figure.title);
     for claim in &findings.claims {
         let sign = if claim.holds {
             "holds"
         } else {
             "DOES NOT HOLD"
         };
-        say(&format!("    {sign}: {}\n", claim.text));
+        text.push_str(&format!("    {sign}: {}\n", claim.text));
     }
     for case in findings.cases.iter().filter(|c| !c.ok) {
-        say(&format!(
+        text.push_str(&format!(
             "    DOES NOT HOLD: what a build promises, in the case {}\n",
             case.name
         ));
     }
     if let Some(why) = failure {
-        say(&format!("    NOT MADE: {why}\n"));
+        text.push_str(&format!("    NOT MADE: {why}\n"));
     }
+    text
 }
 
 /// Builds one case with its files.

@@ -1,11 +1,13 @@
 //! Scenes as commands read them.
 
 use super::args::{Effort, SceneArgs};
-use super::ending::{NOTHING, WRONG_INPUT, fail};
+use super::ending::{FAILED, NOTHING, WRONG_INPUT, fail};
 use super::files::{self, SceneFiles};
 use super::messages::{Messages, Source};
+use super::progress::Reporter;
+use super::threads;
 use pillarforest::diag::{Diagnostic, Warned};
-use pillarforest::scene::{self, Quality, Scene};
+use pillarforest::scene::{self, Purpose, Quality, Scene};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -18,16 +20,18 @@ pub(super) struct Loaded {
     pub read: Vec<PathBuf>,
 }
 
-/// How a scene is read: [`scene::resolve`] or [`scene::resolve_to_mend`].
-pub(super) type Resolve = fn(&str, scene::ReadFile) -> Result<Warned<Scene>, Vec<Diagnostic>>;
-
 /// Reads a scene with its models and prints what is wrong with it; `None` if that ends the run.
-pub(super) fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> Option<Loaded> {
-    if let Some(jobs) = args.jobs {
-        // Before anything runs in parallel: a pool that exists already would keep its size.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.into())
-            .build_global();
+pub(super) fn load(
+    messages: &Messages,
+    args: &SceneArgs,
+    purpose: Purpose,
+    reporter: &Reporter,
+) -> Option<Loaded> {
+    let mut remarks: Vec<Diagnostic> = threads::start(args.jobs).into_iter().collect();
+    remarks.extend(libraries_missing(&args.models));
+    if messages.print(&remarks, None) {
+        messages.closing(&remarks, NOTHING);
+        return None;
     }
     let stop = |list: &[Diagnostic], source: Option<&Source>| {
         fail(messages, list, source, WRONG_INPUT);
@@ -54,7 +58,10 @@ pub(super) fn load(messages: &Messages, args: &SceneArgs, resolve: Resolve) -> O
         text,
     };
     let files = SceneFiles::of(&args.scene, libraries(&args.models), args.allow_outside);
-    match resolve(&source.text, &|name| files.read(name)) {
+    let told = |stage: &str| reporter.report(stage, 0.0);
+    let resolved = scene::resolve_for(&source.text, &|name| files.read(name), purpose, &told);
+    reporter.pause();
+    match resolved {
         Err(problems) => stop(&problems, Some(&source)),
         Ok(Warned { value, warnings }) => {
             if messages.print(&warnings, Some(&source)) {
@@ -80,6 +87,29 @@ pub(super) fn libraries(named: &[PathBuf]) -> Vec<PathBuf> {
     variable.map(PathBuf::from).into_iter().collect()
 }
 
+/// Folders to look for models in that are not there. Scenes may do without them, so that this is no error.
+fn libraries_missing(named: &[PathBuf]) -> Vec<Diagnostic> {
+    let whose = match named {
+        [] => "the variable PILLARFOREST_MODELS",
+        _ => "`--models`",
+    };
+    let libraries = libraries(named);
+    let missing = libraries.iter().filter(|l| !l.is_dir());
+    let warning = |l: &PathBuf| {
+        let what = if l.exists() {
+            "is no folder"
+        } else {
+            "does not exist"
+        };
+        let text = format!(
+            "\"{}\", where {whose} looks for models, {what}",
+            l.display()
+        );
+        Diagnostic::warning(text).help("give a folder that holds the models' files: `--models DIR`")
+    };
+    missing.map(warning).collect()
+}
+
 fn quality(effort: Effort) -> Quality {
     match effort {
         Effort::Draft => Quality::Draft,
@@ -102,6 +132,10 @@ impl Loaded {
         let all: Vec<Diagnostic> = problems.iter().chain(&self.warnings).cloned().collect();
         messages.print(problems, Some(&self.source));
         messages.closing(&all, NOTHING);
-        WRONG_INPUT
+        let errors = problems.iter().filter(|d| d.is_error());
+        match errors.into_iter().all(|d| d.fault) {
+            true => FAILED,
+            false => WRONG_INPUT,
+        }
     }
 }

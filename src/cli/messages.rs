@@ -23,15 +23,27 @@ pub(super) struct Messages {
     deny_warnings: bool,
 }
 
+/// Prints a line to standard error. That may be closed or full; then there is nobody left to tell, and the work goes on.
+pub(super) fn tell(line: &str) {
+    let _ = std::io::stderr().write_all(format!("{line}\n").as_bytes());
+}
+
+/// Whether the surroundings speak against colours: https://no-color.org, or a terminal that has none.
+pub(super) fn colours_wanted() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()) && !is_dumb()
+}
+
+/// Whether the terminal can only write line after line.
+pub(super) fn is_dumb() -> bool {
+    std::env::var_os("TERM").is_some_and(|t| t == "dumb")
+}
+
 /// Characters of a long line shown before and after the marked place.
 const AROUND: usize = 120;
 
 impl Messages {
     pub(super) fn new(global: &Global) -> Self {
-        let auto = || {
-            std::io::stderr().is_terminal()
-                && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
-        };
+        let auto = || std::io::stderr().is_terminal() && colours_wanted();
         let coloured = match global.color {
             When::Always => true,
             When::Never => false,
@@ -67,7 +79,7 @@ impl Messages {
                 out.push('\n');
             }
         }
-        // Standard error may be closed; there is nobody left to tell.
+        // As with `tell`.
         let _ = std::io::stderr().write_all(out.as_bytes());
         list.iter().any(|d| d.is_error() || self.deny_warnings)
     }
@@ -90,7 +102,7 @@ impl Messages {
         } else {
             ""
         };
-        eprintln!("{}.{denied} {last}", parts.join(", "));
+        tell(&format!("{}.{denied} {last}", parts.join(", ")));
     }
 
     fn human(&self, diagnostic: &Diagnostic, source: Option<&Source>) -> String {
@@ -146,8 +158,20 @@ impl Messages {
         } else {
             Renderer::plain()
         };
-        renderer.render(&[group]).to_string()
+        let text = renderer.render(&[group]).to_string();
+        match &diagnostic.place {
+            Some(Place::Scene(_)) if source.is_none() => without_bar(&text),
+            None => without_bar(&text),
+            Some(_) => text,
+        }
     }
+}
+
+/// A message of a title and helps, without the line between them that would join the title to an excerpt.
+fn without_bar(text: &str) -> String {
+    let lines = text.lines().enumerate();
+    let kept: Vec<&str> = lines.filter(|(i, _)| *i != 1).map(|(_, l)| l).collect();
+    kept.join("\n")
 }
 
 /// The line a span starts in, cut around the span if it is long.

@@ -1,15 +1,15 @@
 //! `plan` and `repair`: pillars found or mended, and written down.
 
 use super::args::{Global, SceneArgs, SearchArgs};
-use super::ending::{NOT_PRINTABLE, NOTHING, WRONG_INPUT, WRONG_USAGE, count, fail, say};
-use super::load::{Loaded, Resolve, load};
+use super::ending::{FAILED, NOT_PRINTABLE, NOTHING, WRONG_INPUT, WRONG_USAGE, count, fail, say};
+use super::load::{Loaded, load};
 use super::messages::Messages;
 use super::progress::Reporter;
 use super::write::Destination;
 use pillarforest::compile::{self, LAYOUT};
 use pillarforest::diag::Diagnostic;
 use pillarforest::planner::{Change, Planned, Watch};
-use pillarforest::scene::{self, Scene};
+use pillarforest::scene::{Purpose, Scene};
 use pillarforest::support::SupportKind;
 use std::path::Path;
 
@@ -28,9 +28,9 @@ pub(super) fn run(
     search: &SearchArgs,
     kind: Search,
 ) -> u8 {
-    let resolve: Resolve = match kind {
-        Search::Plan => scene::resolve,
-        Search::Repair => scene::resolve_to_mend,
+    let purpose = match kind {
+        Search::Plan => Purpose::Build,
+        Search::Repair => Purpose::Mend,
     };
     let destination = Destination::new(search.output.as_deref(), &args.scene, &["ron"]);
     let destination =
@@ -38,14 +38,14 @@ pub(super) fn run(
             Ok(destination) => destination,
             Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
         };
-    let Some(mut loaded) = load(messages, args, resolve) else {
+    let reporter = Reporter::new(global.quiet, global.verbose);
+    let Some(mut loaded) = load(messages, args, purpose, &reporter) else {
         return WRONG_INPUT;
     };
-    if let Err(problem) = destination.spares([LAYOUT], &args.scene, &loaded.read) {
-        return fail(messages, &[problem], None, WRONG_USAGE);
+    if let Err(problems) = destination.clear(compile::SEARCH_FILES, &args.scene, &loaded.read) {
+        return fail(messages, &problems, None, WRONG_USAGE);
     }
     wish(&mut loaded.scene, search);
-    let reporter = Reporter::new(global.quiet, global.verbose);
     let (laid, plan) = match searched(&loaded, kind, &reporter) {
         Ok(done) => done,
         Err(problems) => return loaded.failed(messages, &problems),
@@ -63,11 +63,11 @@ pub(super) fn run(
     }
     let files = compile::plan_outputs(&loaded.scene, &plan);
     let names = files.iter().map(|f| f.path.as_str());
-    if let Err(problem) = destination.spares(names, &args.scene, &loaded.read) {
-        return fail(messages, &[problem], None, WRONG_USAGE);
+    if let Err(problems) = destination.clear(names, &args.scene, &loaded.read) {
+        return fail(messages, &problems, None, WRONG_USAGE);
     }
     match destination.write(&files) {
-        Err(problem) => fail(messages, &[problem], None, WRONG_INPUT),
+        Err(problem) => fail(messages, &[problem], None, FAILED),
         Ok(path) => {
             let seconds = reporter.finish().as_secs_f64();
             let pillars = count(plan.pillars.len(), "pillar");

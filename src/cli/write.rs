@@ -1,13 +1,12 @@
-//! Writing: whole sets of files, complete or not at all.
+//! Where a run writes to: checked before its work, so that nobody waits for minutes to be told of a file in the way.
 //!
-//! Everything is written to a temporary directory inside the output directory first and then renamed into place, so that an
-//! interrupted or failed run never leaves a torn file. Nothing is written outside: a link in a file's place is replaced, not
-//! followed, and one in the place of a folder is refused.
+//! Nothing is written outside: a link in a file's place is replaced, not followed, and one in the place of a folder is refused.
 
+use super::staging::{self, is_plain, parent};
 use pillarforest::compile::OutputFile;
 use pillarforest::diag::Diagnostic;
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Where a run writes to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +19,38 @@ pub(super) enum Destination {
 
 /// File endings that ask for one file rather than a directory.
 const ENDINGS: [&str; 7] = ["3mf", "stl", "glb", "svg", "png", "json", "ron"];
+
+/// Endings of files that no command writes alone, and what to type for what comes nearest.
+const OTHER_ENDINGS: [(&str, &str); 20] = [
+    ("obj", MESHES),
+    ("ply", MESHES),
+    ("off", MESHES),
+    ("gltf", MESHES),
+    ("amf", MESHES),
+    ("step", MESHES),
+    ("stp", MESHES),
+    ("blend", MESHES),
+    ("fbx", MESHES),
+    (
+        "gcode",
+        "slice the forest: `-o forest.3mf` writes what slicers read",
+    ),
+    ("html", FOLDER),
+    ("htm", FOLDER),
+    ("zip", FOLDER),
+    ("gif", FOLDER),
+    ("webp", PICTURES),
+    ("jpg", PICTURES),
+    ("jpeg", PICTURES),
+    ("bmp", PICTURES),
+    ("pdf", PICTURES),
+    ("dxf", PICTURES),
+];
+const MESHES: &str = "the forest as a mesh: `-o forest.3mf`, `-o forest.stl` or `-o forest.glb`; optimised surfaces as PLY and OBJ: \
+    `output: (surface: true)` in the scene and a folder, `-o out/my`";
+const FOLDER: &str = "it belongs to a whole set of files: give a folder, `-o out/my`";
+const PICTURES: &str =
+    "the plan alone: `-o plan.svg` or `-o plan.png`; all pictures: give a folder, `-o out/my`";
 
 impl Destination {
     /// What `-o` means, by default `out/<scene>`; checked as far as it can be before any work.
@@ -43,12 +74,23 @@ impl Destination {
             .extension()
             .map(|e| e.to_string_lossy().to_lowercase())
             .unwrap_or_default();
+        if path.is_symlink() && !path.exists() {
+            return Err(fail("it is a link that leads nowhere".into()));
+        }
+        let other = OTHER_ENDINGS.iter().find(|(other, _)| *other == ending);
+        if let Some((_, help)) = other.filter(|_| !path.is_dir()) {
+            return Err(fail(format!("no command makes a single .{ending} file")).help(*help));
+        }
         let destination = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {
             if !allowed.contains(&ending.as_str()) {
-                return Err(fail(format!(
-                    "this command makes no .{ending} file; it makes {}",
-                    allowed.join(", ")
-                )));
+                return Err(fail(match allowed {
+                    [] => format!("this command makes no .{ending} file; it makes many files"),
+                    _ => format!(
+                        "this command makes no .{ending} file; it makes {}",
+                        allowed.join(", ")
+                    ),
+                })
+                .help("give a folder for all files: `-o out/my`"));
             }
             Self::File(path.clone())
         } else {
@@ -57,16 +99,51 @@ impl Destination {
             }
             Self::Directory(path.clone())
         };
-        let ancestor = path
-            .ancestors()
-            .skip(1)
-            .find(|a| a.as_os_str().is_empty() || a.exists());
-        match ancestor {
-            Some(a) if !a.as_os_str().is_empty() && !a.is_dir() => {
-                Err(fail(format!("\"{}\" is a file", a.display())))
-            }
+        let in_way = |a: &&Path| !a.as_os_str().is_empty() && a.symlink_metadata().is_ok();
+        match path.ancestors().skip(1).find(in_way) {
+            Some(a) if !a.exists() => Err(fail(format!(
+                "\"{}\" is a link that leads nowhere",
+                a.display()
+            ))),
+            Some(a) if !a.is_dir() => Err(fail(format!("\"{}\" is a file", a.display()))),
             _ => Ok(destination),
         }
+    }
+
+    /// The folder that files are written into, and their names there.
+    fn places<'n>(
+        &'n self,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> (&'n Path, Vec<std::borrow::Cow<'n, str>>) {
+        match self {
+            Self::Directory(folder) => (folder, names.into_iter().map(Into::into).collect()),
+            Self::File(path) => {
+                let name = path.file_name().unwrap_or_default();
+                (parent(path), vec![name.to_string_lossy()])
+            }
+        }
+    }
+
+    /// Makes sure that files of these names can be written: nothing that the run reads is among them, nothing is in their way, and
+    /// the system lets them be written. Finishes what killed runs left there.
+    ///
+    /// # Errors
+    /// All that is in the way.
+    pub(super) fn clear<'n>(
+        &'n self,
+        names: impl IntoIterator<Item = &'n str>,
+        scene: &Path,
+        read: &[PathBuf],
+    ) -> Result<(), Vec<Diagnostic>> {
+        let (folder, names) = self.places(names);
+        let names = || names.iter().map(AsRef::as_ref);
+        self.spares(names(), scene, read).map_err(|p| vec![p])?;
+        let obstacles = staging::obstacles(folder, names());
+        if !obstacles.is_empty() {
+            return Err(obstacles);
+        }
+        staging::tidy(folder);
+        Ok(())
     }
 
     /// Refuses to overwrite the scene or a file that it names, `read`. `names` are those of the files to be written.
@@ -103,15 +180,16 @@ impl Destination {
     /// Writes the files; gives the path to name in the last line.
     ///
     /// # Errors
-    /// What the system said. No file is torn even then.
+    /// What could not be written, and what the system said. All is as it was even then.
     pub(super) fn write(&self, files: &[OutputFile]) -> Result<PathBuf, Diagnostic> {
         match self {
             Self::Directory(directory) => {
-                let fail = |e: std::io::Error| {
-                    Diagnostic::error(format!("cannot write to \"{}\": {e}", directory.display()))
-                };
                 check_names(files)?;
-                into_directory(directory, files).map_err(fail)?;
+                let set: Vec<staging::Entry> = files
+                    .iter()
+                    .map(|f| (f.path.as_str(), f.bytes.as_slice()))
+                    .collect();
+                staging::write(directory, &set).map_err(|e| e.diagnostic())?;
                 Ok(files
                     .first()
                     .map_or(directory.clone(), |f| directory.join(&f.path)))
@@ -126,9 +204,7 @@ impl Destination {
                     ))
                     .help("the scene's `output` section may have switched it off")
                 })?;
-                into_file(path, &file.bytes).map_err(|e| {
-                    Diagnostic::error(format!("cannot write \"{}\": {e}", path.display()))
-                })?;
+                into_file(path, &file.bytes)?;
                 Ok(path.clone())
             }
         }
@@ -162,69 +238,11 @@ fn check_names(files: &[OutputFile]) -> Result<(), Diagnostic> {
     }
 }
 
-fn is_plain(part: Component) -> bool {
-    matches!(part, Component::Normal(_))
-}
-
-fn into_directory(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
-    let fresh = !directory.exists();
-    fs::create_dir_all(directory)?;
-    let written = staged(directory, files);
-    if fresh && written.is_err() {
-        // Only if it is still empty.
-        let _ = fs::remove_dir(directory);
-    }
-    written
-}
-
-fn staged(directory: &Path, files: &[OutputFile]) -> std::io::Result<()> {
-    for file in files {
-        no_links(directory, parent(Path::new(&file.path)))?;
-    }
-    let staging = tempfile::Builder::new()
-        .prefix(".pillarforest-")
-        .tempdir_in(directory)?;
-    for file in files {
-        let path = staging.path().join(&file.path);
-        fs::create_dir_all(parent(&path))?;
-        fs::write(&path, &file.bytes)?;
-    }
-    // Only now are other files in the target touched, by renames on one file system; those not of this run stay.
-    for file in files {
-        let path = directory.join(&file.path);
-        fs::create_dir_all(parent(&path))?;
-        fs::rename(staging.path().join(&file.path), &path)?;
-    }
-    staging.close()
-}
-
-/// Folders inside of the output directory must not lead out of it.
-fn no_links(directory: &Path, folder: &Path) -> std::io::Result<()> {
-    let mut path = directory.to_path_buf();
-    for part in folder.components().filter(|c| is_plain(*c)) {
-        path.push(part);
-        if path.is_symlink() {
-            let why = format!("\"{}\" is a link", path.display());
-            return Err(std::io::Error::other(why));
-        }
-    }
-    Ok(())
-}
-
-/// Writes one file by way of a temporary one beside it.
-pub(super) fn into_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    fs::create_dir_all(parent(path))?;
-    let staging = tempfile::Builder::new()
-        .prefix(".pillarforest-")
-        .tempdir_in(parent(path))?;
-    let staged = staging.path().join("file");
-    fs::write(&staged, bytes)?;
-    fs::rename(&staged, path)?;
-    staging.close()
-}
-
-fn parent(path: &Path) -> &Path {
-    path.parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."))
+/// Writes one file, or leaves what was there.
+///
+/// # Errors
+/// What the system said.
+pub(super) fn into_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    staging::write(parent(path), &[(&name, bytes)]).map_err(|e| e.diagnostic())
 }

@@ -9,6 +9,7 @@ mod elsewhere;
 mod files;
 mod headline;
 mod laid;
+mod names;
 mod output;
 mod page;
 mod pictures;
@@ -21,8 +22,9 @@ mod stages;
 mod summary;
 mod verdict;
 
+pub use names::{build_names, picture_names, plan_names};
 pub use output::{Build, Drawn, OutputFile};
-pub use planning::{LAYOUT, cut_short, plan_outputs, planned, repaired, shortfalls};
+pub use planning::{LAYOUT, SEARCH_FILES, cut_short, plan_outputs, planned, repaired, shortfalls};
 pub use progress::{Progress, Stop};
 
 use crate::diag::Diagnostic;

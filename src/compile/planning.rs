@@ -10,6 +10,16 @@ use crate::words;
 
 /// Name of the layout file among the outputs.
 pub const LAYOUT: &str = "layout.ron";
+/// All files that a search may write.
+pub const SEARCH_FILES: [&str; 7] = [
+    LAYOUT,
+    "plan.svg",
+    "plan.png",
+    "tradeoff.svg",
+    "tradeoff.png",
+    "search.svg",
+    "search.png",
+];
 /// Widths of the planning pictures, pixels: text of 2.5 mm on A4 has 20 of them in the first.
 const SHEET_PX: u32 = 2400;
 const TRADE_PX: u32 = 1400;

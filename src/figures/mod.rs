@@ -72,6 +72,9 @@ pub fn make(figure: Figure, workshop: &mut Workshop) -> Done {
     }
 }
 
+/// What is written in any case.
+pub const FILES: [&str; 3] = ["index.html", "figures.md", "figures.json"];
+
 /// Everything that is written besides what the builds wrote.
 pub fn files(done: &[Done]) -> Vec<OutputFile> {
     let file = |path: &str, text: String| OutputFile::new(path, text.into_bytes());

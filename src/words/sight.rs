@@ -65,6 +65,7 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
     };
     let Some(kind) = worst else {
         return Diagnostic::error(format!("view \"{view}\": {error}"))
+            .fault()
             .help("thicker layers (`front`, `back`) make it easier; `check` tells whether the models are sound");
     };
     let (bound, limit) = match kind {

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates that only the listed files or folders of `src` may name.
-const OWNERS: [(&str, &[&str]); 15] = [
+const OWNERS: [(&str, &[&str]); 16] = [
     ("alum", &["mesh/simplify.rs"]),
     ("obvhs", &["bvh.rs"]),
     ("spade", &["viewmap/arrange.rs"]),
@@ -21,6 +21,7 @@ const OWNERS: [(&str, &[&str]); 15] = [
     ("quick_xml", &["formats/"]),
     ("gltf_json", &["formats/"]),
     ("clap", &["cli/"]),
+    ("signal_hook", &["cli/signals.rs"]),
     ("exmex", &["scene/supports/bodies/heights.rs"]),
     ("rand", &["planner/"]),
     ("rand_pcg", &["planner/"]),
@@ -248,6 +249,21 @@ fn the_library_leaves_files_clock_and_terminal_alone() {
         }
     }
     assert_none(wrong, "belongs to the binary");
+}
+
+/// They panic where standard output or error is closed or full.
+#[test]
+fn nobody_prints_with_macros_that_panic() {
+    let mut wrong = Vec::new();
+    for source in sources() {
+        for (place, line) in source.located() {
+            let macros = ["println!", "print!", "eprintln!", "eprint!"];
+            if macros.iter().any(|w| names(line, w)) {
+                wrong.push(format!("{place}: {}", line.trim()));
+            }
+        }
+    }
+    assert_none(wrong, "prints by `say` or `tell` of the binary");
 }
 
 #[test]

@@ -340,3 +340,273 @@ fn what_does_not_hold_is_told_and_written_only_by_force() {
     assert!(gaps.is_some_and(|g| g.iter().all(|g| g["cause"] == "no_pillar")));
     assert!(folder.path().join("made/forest.stl").exists());
 }
+
+/// Runs a line of the shell in which `pillarforest` is the program.
+#[cfg(unix)]
+pub(crate) fn shell(folder: &Path, line: &str) -> (i32, String, String) {
+    let program = Command::cargo_bin("pillarforest").unwrap();
+    let program = Path::new(program.get_program()).parent().unwrap();
+    let path = std::env::var("PATH").unwrap_or_default();
+    let output = Command::new("bash")
+        .current_dir(folder)
+        .env_remove("PILLARFOREST_MODELS")
+        .env("PATH", format!("{}:{path}", program.display()))
+        .args(["-c", line])
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8 output");
+    (
+        output.status.code().unwrap_or(-1),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+/// A scene with a warning before and a line of progress in its build.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_or_full_standard_error_stops_no_build() {
+    for line in [
+        "pillarforest view -v -o made 2>/dev/full",
+        "pillarforest view -v -o made 2>&1 >/dev/null | true; exit ${PIPESTATUS[0]}",
+        "pillarforest view -v -o made 2>&-",
+        "pillarforest view -v --timings -o made 2>/dev/full",
+    ] {
+        let folder = folder(&PLAIN.replace("\"front\"", "\"CON\""));
+        let (code, _, err) = shell(folder.path(), line);
+        assert_eq!(code, 0, "{line}: {err}");
+        assert!(folder.path().join("made/plan.svg").exists(), "{line}");
+    }
+    let wrong = folder("(");
+    assert_eq!(shell(wrong.path(), "pillarforest check 2>/dev/full").0, 1);
+    assert_eq!(shell(wrong.path(), "pillarforest bild 2>/dev/full").0, 2);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_does_not_reach_standard_output_is_told() {
+    for command in [
+        "inspect --json cube.obj",
+        "inspect cube.obj",
+        "schema",
+        "check",
+        "completions bash",
+        "--help",
+        "init fresh.ron",
+        "view -o made",
+        "figures --list",
+    ] {
+        let folder = folder(PLAIN);
+        let (code, _, err) = shell(
+            folder.path(),
+            &format!("pillarforest {command} > /dev/full"),
+        );
+        assert_eq!(code, 4, "{command}: {err}");
+        assert!(err.contains("standard output"), "{command}: {err}");
+    }
+    // A reader that has had enough is no failure.
+    let line = "pillarforest schema | head -1 > /dev/null; exit ${PIPESTATUS[0]}";
+    assert_eq!(shell(folder("").path(), line).0, 0);
+}
+
+#[test]
+fn messages_without_a_place_have_no_empty_frame() {
+    let folder = folder(PLAIN);
+    for args in [
+        &["check", "none.ron"][..],
+        &["inspect", "none.stl"],
+        &["view", "-o", "a.pdf"],
+        &["view", "--models", "nowhere"],
+        &["init"],
+    ] {
+        let (_, _, err) = run(folder.path(), args);
+        assert!(
+            err.contains("error: ") || err.contains("warning: "),
+            "{err}"
+        );
+        let bare = |l: &str| l.trim() == "|";
+        assert!(!err.lines().any(bare), "{args:?}\n{err}");
+    }
+}
+
+#[test]
+fn outputs_that_no_command_writes_say_what_to_type() {
+    let folder = folder(PLAIN);
+    for (command, output, help) in [
+        ("build", "x.obj", "-o forest.3mf"),
+        ("build", "x.PLY", "surface: true"),
+        ("build", "x.html", "give a folder"),
+        ("build", "x.pdf", "-o plan.svg"),
+        ("view", "x.pdf", "-o plan.svg"),
+        ("plan", "x.html", "give a folder"),
+        ("render", "x.png", "give a folder"),
+    ] {
+        let (code, _, err) = run(folder.path(), &[command, "-o", output]);
+        assert_eq!(code, 2, "{command} {output}: {err}");
+        assert!(err.contains(output) && err.contains(help), "{err}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn terminals_without_colours_get_none() {
+    let coloured = |variable: &str, value: &str| {
+        let folder = folder("(");
+        let mut command = Command::new("script");
+        let program = Command::cargo_bin("pillarforest").unwrap();
+        let line = format!("{} check", program.get_program().to_string_lossy());
+        command.current_dir(folder.path());
+        command.env_remove("NO_COLOR").env("TERM", "xterm");
+        command.env(variable, value);
+        let output = command.args(["-qec", &line, "/dev/null"]).output();
+        output.ok().map(|o| o.stdout.contains(&0x1b))
+    };
+    // Without `script` there is no terminal to try.
+    if coloured("TERM", "xterm") == Some(true) {
+        assert_eq!(coloured("TERM", "dumb"), Some(false));
+        assert_eq!(coloured("NO_COLOR", "1"), Some(false));
+    }
+}
+
+#[test]
+fn models_that_nobody_sees_and_folders_that_are_not_there_are_warned_of() {
+    let unseen = PLAIN.replace(
+        "models: [(name: \"cube\",",
+        "models: [(name: \"spare\", file: \"cube.obj\", place: Fit(height: 9)), (name: \"cube\",",
+    );
+    let scene = folder(&unseen);
+    let (code, out, err) = run(scene.path(), &["check"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("1 warning"), "{out}");
+    assert!(
+        err.contains("model \"spare\" is in no view") && err.contains("scene.ron:3:"),
+        "{err}"
+    );
+    let scene = folder(PLAIN);
+    let (code, _, err) = run(scene.path(), &["check", "--models", "nowhere"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        err.contains("\"nowhere\"") && err.contains("does not exist"),
+        "{err}"
+    );
+    let args = ["check", "--models", "nowhere", "--deny", "warnings"];
+    assert_eq!(run(scene.path(), &args).0, 1);
+}
+
+#[test]
+fn more_threads_than_help_are_not_started() {
+    let folder = folder(PLAIN);
+    let (code, _, err) = run(folder.path(), &["check", "-j", "1000"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        err.contains("`-j 1000`") && err.contains("goes on with"),
+        "{err}"
+    );
+    let (code, _, err) = run(folder.path(), &["check", "-j", "2"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+}
+
+/// Where the address space ends before the stacks of all threads have room.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_start_are_done_without() {
+    let folder = folder(PLAIN);
+    let line = "ulimit -v 200000; RUST_MIN_STACK=100000000 pillarforest check -j 8";
+    let (code, _, err) = shell(folder.path(), line);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("the system starts no more than"), "{err}");
+}
+
+/// Loading is part of what takes time, and of what is told.
+#[test]
+fn loading_is_part_of_the_timings() {
+    let folder = folder(PLAIN);
+    let (code, _, err) = run(folder.path(), &["check", "--timings"]);
+    assert_eq!(code, 0, "{err}");
+    for stage in [
+        "  models",
+        "  scene",
+        "  view maps",
+        "  contested surface",
+        "  in all",
+    ] {
+        assert!(err.contains(stage), "{stage}\n{err}");
+    }
+    let (_, _, err) = run(folder.path(), &["check", "--timings", "--quality", "draft"]);
+    assert!(!err.contains("simplifying"), "nothing to simplify\n{err}");
+    let (_, _, err) = run(folder.path(), &["check", "-v"]);
+    assert!(
+        err.contains(" models\n") && err.contains(" view maps\n"),
+        "{err}"
+    );
+}
+
+fn bundled(model: &str) -> std::path::PathBuf {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/models");
+    models.join(model)
+}
+
+/// With models of one's own `init` writes a scene that checks without an error, whatever lies where.
+#[test]
+fn init_takes_models_of_ones_own() {
+    let folder = folder("");
+    fs::remove_file(folder.path().join("scene.ron")).unwrap();
+    let hare = bundled("hare.ply");
+    let args = ["init", "cube.obj", hare.to_str().unwrap()];
+    let (code, out, err) = run(folder.path(), &args);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        out.contains("wrote scene.ron") && out.contains("models/hare.ply"),
+        "{out}"
+    );
+    for part in [
+        "up: \"y\", front: \"z\"",
+        "up: \"z\", front: \"-y\"",
+        "inspect --views cube.obj",
+    ] {
+        assert!(err.contains(part), "{part}\n{err}");
+    }
+    let scene = fs::read_to_string(folder.path().join("scene.ron")).unwrap();
+    for part in [
+        "pillars: Auto(",
+        "file: \"cube.obj\"",
+        "// Written by: pillarforest init cube.obj",
+    ] {
+        assert!(scene.contains(part), "{part}\n{scene}");
+    }
+    let (code, out, err) = run(folder.path(), &["check", "--deny", "warnings"]);
+    assert_eq!(code, 0, "{out}{err}");
+    // Once more is no overwriting; another scene is.
+    assert_eq!(run(folder.path(), &args).0, 0);
+    assert_eq!(run(folder.path(), &["init", "cube.obj"]).0, 1);
+    assert_eq!(run(folder.path(), &["init", "cube.obj", "my.ron"]).0, 0);
+    assert!(folder.path().join("my.ron").exists());
+    assert_eq!(run(folder.path(), &["init", "a.ron", "b.ron"]).0, 2);
+    let (code, _, err) = run(folder.path(), &["init", "none.obj", "gone.stl"]);
+    assert_eq!(code, 1);
+    assert!(
+        err.contains("none.obj") && err.contains("gone.stl"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_scene_of_ones_own_model_builds_as_it_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(bundled("fish.ply"), folder.path().join("fish.ply")).unwrap();
+    assert_eq!(run(folder.path(), &["init", "fish.ply"]).0, 0);
+    let (code, out, err) = run(folder.path(), &["build", "--quality", "draft", "-q"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(folder.path().join("out/scene/forest.3mf").exists());
+}
+
+#[test]
+fn the_sides_of_a_model_are_drawn_with_the_words_to_write() {
+    let folder = folder("");
+    let (code, out, err) = run(folder.path(), &["inspect", "--views", "cube.obj"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    let drawn = fs::read(folder.path().join("out/cube-obj-sides.png")).unwrap();
+    assert!(drawn.starts_with(b"\x89PNG"));
+    assert!(out.contains("out/cube-obj-sides.png"), "{out}");
+    assert_eq!(run(folder.path(), &["inspect", "--views", "none.obj"]).0, 1);
+}

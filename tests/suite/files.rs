@@ -1,6 +1,7 @@
 //! Which files are read and written: models only from where the user lets them come from, outputs only where they belong.
 
-use crate::cli::{CUBE, PLAIN, folder, run};
+use crate::cli::{CUBE, PLAIN, folder, run, shell};
+use assert_cmd::cargo::CommandCargoExt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -211,11 +212,211 @@ fn linked_folders_in_the_output_folder_are_refused() {
     symlink("../precious", at("made/views")).unwrap();
     let before = tree(folder.path());
     let (code, _, err) = run(folder.path(), &["render", "-o", "made"]);
-    assert_eq!(code, 1, "{err}");
+    assert_eq!(code, 2, "{err}");
     assert!(err.contains("views\" is a link"), "{err}");
     assert_eq!(tree(folder.path()), before);
     fs::remove_file(at("made/views")).unwrap();
     let (code, _, err) = run(folder.path(), &["render", "-o", "made"]);
     assert_eq!(code, 0, "{err}");
     assert!(at("made/views/front.png").exists());
+}
+
+/// How many hidden entries a folder has.
+fn hidden(folder: &Path) -> usize {
+    let entries = fs::read_dir(folder).unwrap().flatten();
+    entries
+        .filter(|e| e.file_name().to_string_lossy().starts_with('.'))
+        .count()
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_in_the_way_of_outputs_is_told_before_the_work() {
+    use std::os::unix::fs::symlink;
+    type Prepared = fn(&Path);
+    let cases: [(&str, &str, Prepared, &str); 6] = [
+        (
+            "render",
+            "made",
+            |f| fs::write(f.join("made/views"), "mine").unwrap(),
+            "made/views",
+        ),
+        (
+            "view",
+            "made",
+            |f| fs::create_dir(f.join("made/plan.svg")).unwrap(),
+            "made/plan.svg",
+        ),
+        (
+            "build",
+            "made",
+            |f| fs::create_dir(f.join("made/report.json")).unwrap(),
+            "made/report.json",
+        ),
+        (
+            "view",
+            "loose",
+            |f| symlink("nowhere", f.join("loose")).unwrap(),
+            "leads nowhere",
+        ),
+        (
+            "view",
+            "loose/a",
+            |f| symlink("nowhere", f.join("loose")).unwrap(),
+            "leads nowhere",
+        ),
+        ("view", "/proc/made", |_| (), "/proc"),
+    ];
+    for (command, output, prepare, said) in cases {
+        let folder = folder(QUICK);
+        fs::create_dir(folder.path().join("made")).unwrap();
+        prepare(folder.path());
+        let before = tree(folder.path());
+        let (code, out, err) = run(folder.path(), &[command, "-v", "-o", output]);
+        assert_eq!(code, 2, "{output}: {err}");
+        assert!(err.contains(said), "{output}: {err}");
+        // No stage of the pipeline has run.
+        assert!(
+            !err.contains("view maps") && !err.contains(" plan\n"),
+            "{err}"
+        );
+        assert_eq!(out, "");
+        assert_eq!(tree(folder.path()), before, "{output}");
+    }
+}
+
+/// What a build may write is known before it.
+#[test]
+fn all_files_of_a_build_are_foreseen() {
+    use pillarforest::{compile, scene};
+    let everything = QUICK.replace(
+        "output: (",
+        "output: (surface: true, groups: true, turntable: true, split: true, ",
+    );
+    let folder = folder(&everything);
+    let read = |_: &str| Ok(CUBE.as_bytes().to_vec());
+    let scene = scene::resolve(&everything, &read).unwrap().value;
+    for (command, mut foreseen) in [
+        ("build", compile::build_names(&scene)),
+        ("view", compile::plan_names(&scene)),
+        ("render", compile::picture_names(&scene)),
+    ] {
+        let (code, _, err) = run(folder.path(), &[command, "-o", command]);
+        assert!(code == 0 || code == 3, "{err}");
+        if code == 3 {
+            run(folder.path(), &[command, "--force", "-o", command]);
+        }
+        let made = folder.path().join(command);
+        let written: Vec<String> = tree(&made)
+            .iter()
+            .map(|(path, _)| {
+                path.strip_prefix(&made)
+                    .unwrap()
+                    .to_str()
+                    .unwrap()
+                    .to_string()
+            })
+            .collect();
+        let pieces: Vec<_> = foreseen.extract_if(.., |n| n.ends_with('/')).collect();
+        let others = written
+            .iter()
+            .filter(|w| pieces.iter().all(|p| !w.starts_with(p.as_str())));
+        let others: Vec<&String> = others.collect();
+        foreseen.sort();
+        let mut found = others.clone();
+        found.sort();
+        assert_eq!(found, foreseen.iter().collect::<Vec<_>>(), "{command}");
+    }
+}
+
+/// A file beyond the limit of sizes ends a run as a full disk does.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_what_was_there_and_names_the_file() {
+    let folder = folder(PLAIN);
+    let made = folder.path().join("made");
+    let line = "ulimit -f 4; pillarforest view -o made";
+    let (code, out, err) = shell(folder.path(), line);
+    assert_eq!((code, out.as_str()), (4, ""), "{err}");
+    assert!(
+        err.contains("cannot write \"made/plan.") && err.contains("Nothing was written"),
+        "{err}"
+    );
+    assert!(!made.exists());
+    fs::create_dir(&made).unwrap();
+    fs::write(made.join("plan.svg"), "old").unwrap();
+    fs::write(made.join("mine.txt"), "mine").unwrap();
+    let before = tree(folder.path());
+    assert_eq!(shell(folder.path(), line).0, 4);
+    assert_eq!(tree(folder.path()), before);
+    assert_eq!(hidden(&made), 0);
+}
+
+/// A run that is ended at any moment leaves the old files or the new ones.
+#[cfg(unix)]
+#[test]
+fn signals_leave_the_old_files_or_the_new_ones() {
+    let folder = folder(PLAIN);
+    let made = folder.path().join("made");
+    assert_eq!(run(folder.path(), &["view", "-o", "made"]).0, 0);
+    let new = tree(&made);
+    let start = std::time::Instant::now();
+    assert_eq!(run(folder.path(), &["view", "-o", "made"]).0, 0);
+    let whole = start.elapsed();
+    let (mut olds, mut news) = (0, 0);
+    for step in 0..24 {
+        for file in PLAN {
+            fs::write(made.join(file), "old").unwrap();
+        }
+        let old = tree(&made);
+        let mut child = std::process::Command::cargo_bin("pillarforest").unwrap();
+        child
+            .current_dir(folder.path())
+            .args(["view", "-q", "-o", "made"]);
+        child.stdout(std::process::Stdio::null());
+        let mut child = child.spawn().unwrap();
+        // From half of a run's time to a little after its end.
+        std::thread::sleep(whole * (12 + step) / 28);
+        let signal = ["TERM", "INT"][step as usize % 2];
+        let kill = format!("kill -{signal} {}", child.id());
+        let _ = std::process::Command::new("sh")
+            .args(["-c", &kill])
+            .output();
+        child.wait().unwrap();
+        let found = tree(&made);
+        assert!(found == old || found == new, "a mixture at step {step}");
+        assert_eq!(hidden(&made), 0, "step {step}");
+        olds += usize::from(found == old);
+        news += usize::from(found == new);
+    }
+    assert_eq!(olds + news, 24);
+}
+
+/// What a killed run left is finished if it was complete, and removed if not.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_next_run_tidies_after_one_that_was_killed() {
+    let folder = folder(PLAIN);
+    let made = folder.path().join("made");
+    let at = |name: &str| made.join(name);
+    fs::create_dir_all(at(".pillarforest-half/making/views")).unwrap();
+    fs::write(at(".pillarforest-half/making/views/front.png"), "half").unwrap();
+    fs::create_dir_all(at(".pillarforest-ready/ready/views")).unwrap();
+    fs::write(at(".pillarforest-ready/ready/views/front.png"), "whole").unwrap();
+    fs::create_dir_all(at(".pillarforest-ready/replaced")).unwrap();
+    fs::write(at(".pillarforest-ready/replaced/report.json"), "old").unwrap();
+    fs::write(at("report.json"), "new").unwrap();
+    // One whose run lives.
+    fs::create_dir_all(at(".pillarforest-alive/making")).unwrap();
+    let alive = fs::File::open(at(".pillarforest-alive")).unwrap();
+    alive.try_lock().unwrap();
+    let (code, _, err) = run(folder.path(), &["view", "-o", "made"]);
+    assert_eq!(code, 0, "{err}");
+    let text = |name: &str| fs::read_to_string(at(name)).unwrap();
+    assert_eq!(text("views/front.png"), "whole");
+    assert_eq!(text("report.json"), "new");
+    assert_eq!(hidden(&made), 1);
+    drop(alive);
+    assert_eq!(run(folder.path(), &["view", "-o", "made"]).0, 0);
+    assert_eq!(hidden(&made), 0);
 }
