@@ -44,8 +44,8 @@ pub(super) fn caught(messages: &Messages, command: impl FnOnce() -> u8) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::args::Cli;
     use super::*;
-    use crate::cli::args::Cli;
     use clap::Parser;
 
     #[test]

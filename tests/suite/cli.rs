@@ -475,9 +475,8 @@ fn models_that_nobody_sees_and_folders_that_are_not_there_are_warned_of() {
         "models: [(name: \"spare\", file: \"cube.obj\", place: Fit(height: 9)), (name: \"cube\",",
     );
     let scene = folder(&unseen);
-    let (code, out, err) = run(scene.path(), &["check"]);
+    let (code, _, err) = run(scene.path(), &["check"]);
     assert_eq!(code, 0, "{err}");
-    assert!(out.contains("1 warning"), "{out}");
     assert!(
         err.contains("model \"spare\" is in no view") && err.contains("scene.ron:3:"),
         "{err}"
@@ -503,7 +502,7 @@ fn more_threads_than_help_are_not_started() {
         "{err}"
     );
     let (code, _, err) = run(folder.path(), &["check", "-j", "2"]);
-    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(code == 0 && !err.contains("`-j"), "{err}");
 }
 
 /// Where the address space ends before the stacks of all threads have room.
