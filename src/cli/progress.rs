@@ -44,7 +44,7 @@ struct Shared {
 }
 
 /// In order of their first report.
-struct Stage {
+struct Reported {
     name: String,
     /// Of the first report since the start.
     at: Duration,
@@ -55,7 +55,7 @@ struct Stage {
 #[derive(Default)]
 struct State {
     bar: Option<ProgressBar>,
-    stages: Vec<Stage>,
+    stages: Vec<Reported>,
     /// How many of them were told.
     told: usize,
     /// Of the whole run when the stage at work began, and by when it will be done if it takes as long as measured; 0 to 1.
@@ -98,7 +98,7 @@ impl Reporter {
             let (from, to) = measured(stage).unwrap_or((share, share));
             (state.from, state.to, state.since) = (from, to, now);
             if state.stages.iter().all(|s| s.name != stage) {
-                state.stages.push(Stage {
+                state.stages.push(Reported {
                     name: stage.to_string(),
                     at: now,
                     done: from,
@@ -191,11 +191,11 @@ impl Shared {
         }
         let done = done((state.from, state.to), elapsed - state.since, elapsed);
         if !self.terminal {
-            for Stage { name, done, .. } in &state.stages[state.told..] {
+            for Reported { name, done, .. } in &state.stages[state.told..] {
                 tell(&format!("[{:>3.0} %] {name}", 100.0 * done));
             }
             state.told = state.stages.len();
-        } else if let Some(Stage { name, .. }) = state.stages.last() {
+        } else if let Some(Reported { name, .. }) = state.stages.last() {
             let left = match left(elapsed, done) {
                 Some(seconds) => format!("{name}  (about {seconds} s left)"),
                 None => name.clone(),

@@ -9,17 +9,17 @@ mod system {
     use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
     use std::sync::{Arc, OnceLock};
 
-    struct Watch {
+    struct Waiting {
         /// Whether signals have their usual effect.
         usual: Arc<AtomicBool>,
         /// The last one that came, or 0.
         came: Arc<AtomicUsize>,
     }
 
-    static WATCH: OnceLock<Watch> = OnceLock::new();
+    static WATCH: OnceLock<Waiting> = OnceLock::new();
 
-    fn watch() -> Watch {
-        let watch = Watch {
+    fn waiting() -> Waiting {
+        let watch = Waiting {
             usual: Arc::new(AtomicBool::new(true)),
             came: Arc::default(),
         };
@@ -35,12 +35,12 @@ mod system {
     }
 
     pub(super) fn hold() {
-        let watch = WATCH.get_or_init(watch);
+        let watch = WATCH.get_or_init(waiting);
         watch.usual.store(false, Ordering::SeqCst);
     }
 
     pub(super) fn came() -> bool {
-        let came = |w: &Watch| w.came.load(Ordering::SeqCst) != 0;
+        let came = |w: &Waiting| w.came.load(Ordering::SeqCst) != 0;
         WATCH.get().is_some_and(came)
     }
 

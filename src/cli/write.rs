@@ -78,7 +78,7 @@ impl Destination {
             return Err(fail("it is a link that leads nowhere".into()));
         }
         let other = OTHER_ENDINGS.iter().find(|(other, _)| *other == ending);
-        if let Some((_, help)) = other.filter(|_| !path.is_dir()) {
+        if let Some((_, help)) = other.filter(|_| !path.exists()) {
             return Err(fail(format!("no command makes a single .{ending} file")).help(*help));
         }
         let destination = if ENDINGS.contains(&ending.as_str()) && !path.is_dir() {

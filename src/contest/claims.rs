@@ -153,7 +153,7 @@ pub(crate) fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
     let others = |a: usize| (a + 1..claims.len()).map(move |b| [a, b]);
     let pairs: Vec<[usize; 2]> = (0..claims.len()).flat_map(others).collect();
     let meeting = |pair: &[usize; 2]| {
-        let sides = pair.map(|p| Side::all(&claims[p]));
+        let sides = pair.map(|p| Contender::all(&claims[p]));
         let cells = in_way(sights, sides)?;
         Some(Meeting {
             claims: *pair,
@@ -164,13 +164,13 @@ pub(crate) fn meetings(sights: &[Sight], claims: &[Claim]) -> Vec<Meeting> {
 }
 
 /// Some cells of a claim.
-pub(crate) struct Side<'a> {
+pub(crate) struct Contender<'a> {
     claim: &'a Claim,
     /// By number of the cell in the claim.
     among: Vec<bool>,
 }
 
-impl<'a> Side<'a> {
+impl<'a> Contender<'a> {
     fn all(claim: &'a Claim) -> Self {
         let among = vec![true; claim.cells.len()];
         Self { claim, among }
@@ -185,7 +185,7 @@ impl<'a> Side<'a> {
 }
 
 /// The cells of two sides that are in each other's way, rising; `None` if there are none.
-pub(crate) fn in_way(sights: &[Sight], sides: [Side; 2]) -> Option<[Vec<CellId>; 2]> {
+pub(crate) fn in_way(sights: &[Sight], sides: [Contender; 2]) -> Option<[Vec<CellId>; 2]> {
     let [a, b] = [sides[0].claim, sides[1].claim];
     if a.view == b.view {
         return None;
@@ -207,7 +207,11 @@ pub(crate) fn in_way(sights: &[Sight], sides: [Side; 2]) -> Option<[Vec<CellId>;
 
 /// Marks the cells where the volume of the second side's meets the sight of the first side's. A pair of which both are marked already is
 /// not looked at, so that what is found costs as much as there are cells, not pairs of cells.
-fn block(sights: &[Sight], [seen, body]: [&Side; 2], [blocked, blocking]: [&mut Vec<bool>; 2]) {
+fn block(
+    sights: &[Sight],
+    [seen, body]: [&Contender; 2],
+    [blocked, blocking]: [&mut Vec<bool>; 2],
+) {
     let (seen, among) = (seen.claim, &seen.among);
     for i in (0..body.among.len()).filter(|i| body.among[*i]) {
         let volume = body.claim.volume_of(sights, i);

@@ -1,6 +1,6 @@
 //! Settles all conflicts by a rule.
 
-use super::claims::{Claim, Meeting, Side, claims, in_way, meetings};
+use super::claims::{Claim, Contender, Meeting, claims, in_way, meetings};
 use crate::geom::SQUARE_ARCMIN;
 use crate::index::CellId;
 use crate::sight::{Loss, Sight};
@@ -188,8 +188,8 @@ fn taken(
     }
     let [own_claim, other_claim] = [side, 1 - side].map(|s| &claims[meeting.claims[s]]);
     let sides = [
-        Side::of(own_claim, own, |c| !among(lost, c)),
-        Side::of(other_claim, others, |c| !among(gone, c)),
+        Contender::of(own_claim, own, |c| !among(lost, c)),
+        Contender::of(other_claim, others, |c| !among(gone, c)),
     ];
     in_way(sights, sides).map_or(Vec::new(), |[own, _]| own)
 }

@@ -14,7 +14,7 @@ use crate::render::shading::{self, Lights, Rgb, smoothed};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Side of a picture, pixels, and what is around it.
+/// Aspect of a picture, pixels, and what is around it.
 const SIDE: usize = 320;
 const GAP: usize = 12;
 const HEAD: usize = 34;
@@ -35,17 +35,17 @@ const AXES: [(&str, DVec3); 6] = [
 ];
 
 /// A side of a model: the axis that looks at us, and the one that points up in the picture.
-struct Side {
+struct Aspect {
     front: (&'static str, DVec3),
     up: (&'static str, DVec3),
 }
 
 /// The six sides. What looks along y is drawn with z up and the other way round, as files have it; what looks along x with `up`.
-fn sides(up: &str) -> Vec<Side> {
+fn sides(up: &str) -> Vec<Aspect> {
     let named = |name: &str| AXES.into_iter().find(|(n, _)| *n == name);
     let [y, z] = ["y", "z"].map(|n| named(n).unwrap_or(AXES[4]));
     let upright = named(up).filter(|(_, axis)| axis.x == 0.0).unwrap_or(z);
-    let with_up = |front: (&'static str, DVec3)| Side {
+    let with_up = |front: (&'static str, DVec3)| Aspect {
         front,
         up: match front.1.abs() {
             DVec3::X => upright,
@@ -103,7 +103,7 @@ pub fn six_sides(name: &str, mesh: &TriMesh, up: &str) -> Vec<u8> {
 }
 
 /// One side by rows of [`SIDE`] pixels.
-fn picture(mesh: &TriMesh, bvh: &Bvh, (lo, hi): (DVec3, DVec3), side: &Side) -> Vec<Rgb> {
+fn picture(mesh: &TriMesh, bvh: &Bvh, (lo, hi): (DVec3, DVec3), side: &Aspect) -> Vec<Rgb> {
     let (forward, up) = (-side.front.1, side.up.1);
     let largest = (hi - lo).max_element();
     let middle = (lo + hi) / 2.0;

@@ -48,7 +48,7 @@ pub use language::schema::schema;
 pub use language::starter::{StarterModel, starter};
 pub use language::template::{TEMPLATE, TEMPLATE_MODEL, TEMPLATE_MODEL_FILE};
 pub use layout::laid::{laid_out, layout_text};
-pub use request::{Purpose, ReadFile, Told};
+pub use request::{Begun, Purpose, ReadFile};
 pub use resolve::{resolve, resolve_for, resolve_to_mend};
 pub use resolved::{Making, MakingWay, Output, Printer, Scene};
 pub use text::nearest;

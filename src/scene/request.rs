@@ -6,7 +6,7 @@ use crate::diag::Diagnostic;
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Diagnostic>;
 
 /// Called with the name of what is done as it begins, if it may take a while.
-pub type Told<'a> = &'a dyn Fn(&str);
+pub type Begun<'a> = &'a dyn Fn(&str);
 
 /// What a scene is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

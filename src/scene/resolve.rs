@@ -10,7 +10,7 @@ use super::language::raw::RawScene;
 use super::layout::Around;
 use super::models::{Model, load, lower, models};
 use super::options::{energy, printing, steps, whole};
-use super::request::{Purpose, ReadFile, Told};
+use super::request::{Begun, Purpose, ReadFile};
 use super::resolved::Scene;
 use super::text::document::{self, Document};
 use super::text::lexer;
@@ -45,7 +45,7 @@ pub fn resolve_for(
     text: &str,
     read: ReadFile,
     purpose: Purpose,
-    told: Told,
+    told: Begun,
 ) -> Result<Warned<Scene>, Vec<Diagnostic>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (problems, scene) = document::read(text, |text| match parse(text) {
@@ -84,7 +84,7 @@ fn build(
     raw: &RawScene,
     read: ReadFile,
     purpose: Purpose,
-    told: Told,
+    told: Begun,
 ) -> Option<Scene> {
     let scene_span = lexer::trimmed(reader.text);
     if let Some((unit, _)) = reader.given(&raw.units) {
