@@ -234,7 +234,8 @@ impl Comparison<'_> {
             wanted += 1;
             both += usize::from(forest.is_some());
             let deg = forest.map_or(90.0, |f| {
-                angle_deg(self.target.normal(target.face), self.forest.normal(f.face))
+                let wanted = self.target.normal_against(target.face, direction);
+                angle_deg(wanted, self.forest.normal(f.face))
             });
             error += deg;
             agreement += (1.0 - deg / 90.0).max(0.0);

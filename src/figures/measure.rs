@@ -4,6 +4,7 @@
 //! between the normals of model and relief. The library has no clock: whoever compares times holds one.
 
 use crate::diag::Diagnostic;
+use crate::geom::against;
 use crate::index::CellId;
 use crate::relief::Relief;
 use crate::report::NormalError;
@@ -12,7 +13,6 @@ use crate::sight::Sight;
 use crate::view::View;
 use crate::viewmap::{Image, SupportField};
 use crate::words;
-use glam::DVec3;
 
 /// The scene with changed values, each as `--set` has it.
 ///
@@ -58,8 +58,8 @@ fn normal_errors(image: &Image, relief: &Relief) -> NormalError {
         let corners = map.triangle(cell);
         let [a, b, c] = [0, 1, 2].map(|k| map.plane.point(corners[k], depth[k]));
         let ray = a - map.plane.eye;
-        let made = towards((b - a).cross(c - a), ray);
-        let wanted = towards(target.mesh.normal(face), ray);
+        let made = against((b - a).cross(c - a), ray);
+        let wanted = target.mesh.normal_against(face, ray);
         found.push((
             made.angle_between(wanted).to_degrees(),
             map.solid_angle(cell),
@@ -73,15 +73,6 @@ fn normal_errors(image: &Image, relief: &Relief) -> NormalError {
         mean,
         median: below(&found, 0.5 * all),
         p90: below(&found, 0.9 * all),
-    }
-}
-
-/// `normal`, turned against the ray if it points along it.
-fn towards(normal: DVec3, ray: DVec3) -> DVec3 {
-    if normal.dot(ray) > 0.0 {
-        -normal
-    } else {
-        normal
     }
 }
 

@@ -16,6 +16,6 @@ pub use planar::{
     barycentric, contains, gap, hull, narrowest, orient, polygon_area, segment_crossing, to_segment,
 };
 pub use spatial::{
-    area_vector, distance_to_segment, distance_to_triangle, distance_within, height,
+    against, area_vector, distance_to_segment, distance_to_triangle, distance_within, height,
     nearest_points, share_on_segment,
 };

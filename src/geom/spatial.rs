@@ -7,6 +7,15 @@ pub fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
+/// A normal on the side that a ray meets: turned if it points along the ray.
+pub fn against(normal: DVec3, ray: DVec3) -> DVec3 {
+    if normal.dot(ray) > 0.0 {
+        -normal
+    } else {
+        normal
+    }
+}
+
 /// Above its longest side; 0 for corners at one place.
 pub fn height(triangle: [DVec3; 3]) -> f64 {
     let [a, b, c] = triangle;

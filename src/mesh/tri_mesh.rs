@@ -1,6 +1,6 @@
 //! The mesh that everything else here is about.
 
-use crate::geom::area_vector;
+use crate::geom::{against, area_vector};
 use crate::index::{FaceId, VertexId};
 use glam::{DMat4, DVec3};
 
@@ -38,6 +38,12 @@ impl TriMesh {
     /// Unit normal; zero for a degenerate face.
     pub fn normal(&self, face: FaceId) -> DVec3 {
         self.area_vector(face).normalize_or_zero()
+    }
+
+    /// Unit normal on the side that a ray along `direction` meets: eyes see both sides of an open surface, and which of them its
+    /// file calls the outer one says nothing. Zero for a degenerate face.
+    pub fn normal_against(&self, face: FaceId, direction: DVec3) -> DVec3 {
+        against(self.normal(face), direction)
     }
 
     /// Signed volume in cubic millimetres: meaningful for closed meshes. Keeps its digits far from the origin.

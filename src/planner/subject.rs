@@ -260,8 +260,9 @@ impl Subject {
             .map(|k| {
                 let place = DVec2::new((k / PORTRAIT[1]) as f64, (k % PORTRAIT[1]) as f64) + 0.5;
                 let at = from + step * place;
-                let hit = bvh.first_hit(self.eye, self.way(at.x).extend(at.y));
-                hit.map_or(Vec3::ZERO, |h| target.normal(h.face).as_vec3())
+                let way = self.way(at.x).extend(at.y);
+                let hit = bvh.first_hit(self.eye, way);
+                hit.map_or(Vec3::ZERO, |h| target.normal_against(h.face, way).as_vec3())
             })
             .collect();
         Portrait {
@@ -335,8 +336,9 @@ fn columns(
         let stagger = (c as f64 * GOLDEN).fract();
         let slopes = (0..rays.rows).map(|r| lo.y + step.y * (r as f64 + stagger));
         let met = slopes.filter_map(|slope| {
-            let hit = bvh.first_hit(eye, way.extend(slope))?;
-            Some((slope, target.normal(hit.face).as_vec3()))
+            let ray = way.extend(slope);
+            let hit = bvh.first_hit(eye, ray)?;
+            Some((slope, target.normal_against(hit.face, ray).as_vec3()))
         });
         OutlookColumn {
             way,

@@ -23,7 +23,7 @@ pub const PAPER: f64 = (255.0 - DARK) / SPAN;
 pub struct Meet {
     pub face: FaceId,
     pub place: DVec3,
-    /// Unit, of the facet; zero if it has none.
+    /// Unit, of the facet, on the side that the ray meets; zero if it has none.
     pub normal: DVec3,
 }
 
@@ -65,7 +65,7 @@ impl<'a> Caster<'a> {
         Some(Meet {
             face: hit.face,
             place: eye + hit.t * direction,
-            normal: self.mesh.normal(hit.face),
+            normal: self.mesh.normal_against(hit.face, direction),
         })
     }
 

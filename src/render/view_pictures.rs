@@ -18,7 +18,7 @@ use crate::render::shading::{self, Lights, Rgb, smoothed};
 use crate::render::step_lines::{self, Panel, step_lines};
 use crate::steps::{StepLine, StepSummary};
 use crate::view::View;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Share of a face's own colour in the forest's panel: enough to tell the views apart, too little to hide the shading.
@@ -57,6 +57,7 @@ pub fn view_pictures(
         let direction = plane.direction(q).normalize();
         let sight = |bvh: &Bvh| bvh.first_hit(plane.eye, direction).map(|h| h.face);
         Look {
+            direction,
             target: sight(&target_bvh),
             forest: sight(forest_bvh),
         }
@@ -87,6 +88,7 @@ pub fn view_pictures(
 /// The faces that one ray meets.
 #[derive(Clone, Copy)]
 struct Look {
+    direction: DVec3,
     target: Option<FaceId>,
     forest: Option<FaceId>,
 }
@@ -94,7 +96,7 @@ struct Look {
 impl Look {
     /// `None` where the ray passes the target.
     fn error_deg(&self, target: &TriMesh, forest: &TriMesh) -> Option<f64> {
-        let wanted = target.normal(self.target?);
+        let wanted = target.normal_against(self.target?, self.direction);
         Some(
             self.forest
                 .map_or(90.0, |f| angle_deg(wanted, forest.normal(f))),
@@ -114,14 +116,12 @@ impl Look {
                 shading::mixed(shading::PLASTER, c, TINT)
             })
         };
-        let shade =
-            |mesh: &TriMesh, face: FaceId, colour: [u8; 3]| lights.shade(mesh.normal(face), colour);
-        let wanted = self
-            .target
-            .map_or(shading::BACKGROUND, |f| shade(target, f, shading::PLASTER));
-        let got = self
-            .forest
-            .map_or(shading::BACKGROUND, |f| shade(forest, f, tint(f)));
+        let wanted = self.target.map_or(shading::BACKGROUND, |f| {
+            lights.shade(target.normal_against(f, self.direction), shading::PLASTER)
+        });
+        let got = self.forest.map_or(shading::BACKGROUND, |f| {
+            lights.shade(forest.normal(f), tint(f))
+        });
         let error = match self.error_deg(target, forest) {
             None => shading::BACKGROUND,
             Some(_) if self.forest.is_none() => MISS.map(f32::from),

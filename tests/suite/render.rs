@@ -3,9 +3,12 @@
 use crate::shapes::{ORANGE, ball, grove, view};
 use glam::{DMat4, DVec2, DVec3};
 use pillarforest::bvh::Bvh;
+use pillarforest::certify::camouflage::camouflage;
+use pillarforest::index::FaceId;
+use pillarforest::intake::load_model;
 use pillarforest::mesh::TriMesh;
 use pillarforest::render::turntable::{PICTURES, Turntable};
-use pillarforest::render::{Likeness, camera, thumbnail, turntable, view_pictures};
+use pillarforest::render::{Likeness, camera, light_pictures, thumbnail, turntable, view_pictures};
 use pillarforest::report::{Report, SolidReport, ViewReport};
 use pillarforest::steps::{StepLine, StepSummary};
 use pillarforest::view::View;
@@ -405,4 +408,75 @@ fn a_ball_looks_the_same_all_around_the_turntable() {
         (share - std::f64::consts::PI / 4.0 / 1.05f64.powi(2)).abs() < 0.02,
         "{share}"
     );
+}
+
+/// The faces of a ball that are turned to the eye, as an open sheet.
+fn half_owl() -> TriMesh {
+    let mut half = owl().models[0].mesh.clone();
+    let all = half.clone();
+    let mut faces = FaceId::all(all.faces.len());
+    half.faces.retain(|_| {
+        let face = faces.next().expect("as many");
+        all.area_vector(face).dot(EYE - all.corners(face)[0]) > 0.0
+    });
+    half
+}
+
+#[test]
+fn an_eye_sees_both_sides_of_an_open_surface() {
+    let half = half_owl();
+    let flipped = TriMesh {
+        faces: half.faces.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
+        ..half.clone()
+    };
+    // Half of its faces the other way round; no reader would leave it so.
+    let mixed = TriMesh {
+        faces: half
+            .faces
+            .iter()
+            .zip(&flipped.faces)
+            .enumerate()
+            .map(|(k, (f, g))| if k % 2 == 0 { *f } else { *g })
+            .collect(),
+        ..half.clone()
+    };
+    let forest = ball(DVec3::new(2.0, 2.5, 19.5), 10.0, 16);
+    let bvh = Bvh::new(&forest);
+    let drawn = |mesh: &TriMesh| {
+        let view = view("owl", EYE, mesh.clone(), ORANGE);
+        (
+            view_pictures(&view, &forest, &bvh, None, None, 96),
+            light_pictures(&view, &forest, &bvh),
+            camouflage(&view, &forest, &bvh, 0.0),
+        )
+    };
+    let wanted = drawn(&half);
+    assert!(wanted.0.0.mean_deg < 30.0, "{:?}", wanted.0.0);
+    for (name, mesh) in [("flipped", flipped), ("mixed", mixed)] {
+        let found = drawn(&mesh);
+        assert_eq!(found.0.0, wanted.0.0, "{name}");
+        assert!(found.0.1 == wanted.0.1, "{name}: another picture");
+        assert!(found.1 == wanted.1, "{name}: other lights");
+        assert_eq!(found.2, wanted.2, "{name}");
+    }
+}
+
+#[test]
+fn a_surface_with_every_face_twice_is_seen_as_if_once() {
+    let half = half_owl();
+    let mut doubled = half.clone();
+    doubled.append(&TriMesh {
+        faces: half.faces.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
+        ..half.clone()
+    });
+    let loaded = |mesh: &TriMesh| {
+        load_model("a.obj", &crate::shapes::obj(mesh), false)
+            .expect("a model")
+            .value
+    };
+    let (once, twice) = (loaded(&half), loaded(&doubled));
+    assert_eq!(once.faces.len(), twice.faces.len());
+    let forest = ball(DVec3::new(2.0, 2.5, 19.5), 10.0, 16);
+    let drawn = |mesh: TriMesh| likeness(&view("owl", EYE, mesh, ORANGE), &forest);
+    assert_eq!(drawn(once), drawn(twice));
 }
