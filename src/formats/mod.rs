@@ -23,6 +23,7 @@ mod read_3mf;
 mod read_obj;
 mod read_ply;
 mod read_stl;
+mod read_stl_text;
 mod stl;
 mod surface;
 mod text;

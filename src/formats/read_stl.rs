@@ -4,9 +4,8 @@
 //! files carry too. Normals are not read: the corners say more.
 
 use crate::diag::{Diagnostic, Place, Warned};
-use crate::formats::text::{
-    at_byte, at_line, check_coordinate, coordinate, excerpt, lines, without_bom,
-};
+use crate::formats::read_stl_text::corners;
+use crate::formats::text::{at_byte, check_coordinate, without_bom};
 use crate::mesh::TriMesh;
 use glam::DVec3;
 
@@ -22,8 +21,9 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<TriMesh>, Diagnost
     if promised == Some(bytes.len() as u64) || !looks_like_text(bytes) {
         read_binary(file, bytes)
     } else {
-        read_text(file, bytes).map(|value| Warned {
-            value,
+        let vertices = corners(file, bytes)?;
+        Ok(Warned {
+            value: Soup { vertices }.finish(file)?,
             warnings: Vec::new(),
         })
     }
@@ -104,92 +104,4 @@ impl Soup {
         let faces = (0..corners / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]);
         Ok(TriMesh::new(self.vertices, faces))
     }
-}
-
-/// What the text form may say next.
-#[derive(Clone, Copy, PartialEq)]
-enum Expect {
-    FacetOrEnd,
-    Vertex,
-    EndFacet,
-    Solid,
-}
-
-/// Reads line by line: every exporter puts one statement on a line.
-fn read_text(file: &str, bytes: &[u8]) -> Result<TriMesh, Diagnostic> {
-    let mut soup = Soup::default();
-    let mut expect = Expect::Solid;
-    let mut last = 1;
-    for (number, line) in lines(without_bom(bytes)) {
-        last = number;
-        let words: Vec<&[u8]> = line
-            .split(u8::is_ascii_whitespace)
-            .filter(|w| !w.is_empty())
-            .take(6)
-            .collect();
-        let Some(first) = words.first() else {
-            continue;
-        };
-        let wrong = |wanted: &str| {
-            at_line(
-                file,
-                number,
-                line,
-                format!("`{}` found, {wanted} wanted", excerpt(first)),
-            )
-        };
-        let keyword = first.to_ascii_lowercase();
-        expect = match (keyword.as_slice(), expect) {
-            (b"solid", Expect::Solid) => Expect::FacetOrEnd,
-            (b"facet", Expect::FacetOrEnd) => Expect::Vertex,
-            (b"endsolid", Expect::FacetOrEnd) => Expect::Solid,
-            (b"outer", Expect::Vertex) | (b"endloop", Expect::EndFacet) => expect,
-            (b"vertex", Expect::Vertex) => {
-                let corner =
-                    text_corner(&words[1..]).map_err(|why| at_line(file, number, line, why))?;
-                soup.vertices.push(corner);
-                if soup.vertices.len().is_multiple_of(3) {
-                    Expect::EndFacet
-                } else {
-                    Expect::Vertex
-                }
-            }
-            (b"endfacet", Expect::EndFacet) => Expect::FacetOrEnd,
-            (_, Expect::FacetOrEnd) => return Err(wrong("`facet` or `endsolid`")),
-            (_, Expect::Vertex) => return Err(wrong("`vertex` (three of them in a facet)")),
-            (_, Expect::EndFacet) => return Err(wrong("`endloop` or `endfacet`")),
-            (_, Expect::Solid) => return Err(wrong("`solid`")),
-        };
-    }
-    if matches!(expect, Expect::Vertex | Expect::EndFacet) {
-        return Err(at_line(
-            file,
-            last,
-            b"",
-            "the file ends inside of a facet: it is cut short",
-        ));
-    }
-    if expect == Expect::FacetOrEnd && !soup.vertices.is_empty() {
-        return Err(at_line(
-            file,
-            last,
-            b"",
-            "the file ends without `endsolid`: it is cut short",
-        ));
-    }
-    soup.finish(file)
-}
-
-fn text_corner(words: &[&[u8]]) -> Result<DVec3, String> {
-    if words.len() != 3 {
-        return Err(format!(
-            "a vertex with {} coordinates, 3 wanted",
-            words.len()
-        ));
-    }
-    let mut corner = [0.0; 3];
-    for (value, word) in corner.iter_mut().zip(words) {
-        *value = coordinate(word).map_err(|why| format!("a coordinate that is {why}"))?;
-    }
-    Ok(DVec3::from_array(corner))
 }
