@@ -59,6 +59,14 @@ impl Channels {
         self.kept[channel].values.push(value);
     }
 
+    /// Drops the values of vertices not marked true.
+    pub(super) fn keep(&mut self, kept: &[bool]) {
+        for channel in &mut self.kept {
+            let mut keep = kept.iter();
+            channel.values.retain(|_| keep.next() != Some(&false));
+        }
+    }
+
     /// The attributes of `count` vertices with these faces, and a warning for each that is of no use.
     pub(super) fn finish(
         mut self,

@@ -29,11 +29,15 @@ impl Colours {
         self.without += 1;
     }
 
-    /// Whether every vertex has one.
+    /// Whether every vertex has one; `text_of` shows a line of the file.
     ///
     /// # Errors
     /// A warning that tells why the file's colours are of no use.
-    pub(super) fn finish(&self, file: &str) -> Result<bool, Diagnostic> {
+    pub(super) fn finish(
+        &self,
+        file: &str,
+        text_of: impl Fn(usize) -> String,
+    ) -> Result<bool, Diagnostic> {
         if self.with == 0 {
             return Ok(false);
         }
@@ -42,7 +46,7 @@ impl Colours {
             return Err(Diagnostic::warning(message).at(Place::Line {
                 file: file.to_owned(),
                 line: *line,
-                excerpt: String::new(),
+                excerpt: text_of(*line),
             }));
         }
         if self.without > 0 {

@@ -13,6 +13,7 @@
 mod body;
 mod channels;
 mod colours;
+mod flaws;
 mod glb;
 pub mod markup;
 mod narrow;

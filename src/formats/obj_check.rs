@@ -6,7 +6,8 @@
 
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::colours::Colours;
-use crate::formats::text::{at_line, coordinate, excerpt, lines, without_bom};
+use crate::formats::flaws::Flaws;
+use crate::formats::text::{at_line, coordinate, excerpt, lines, number_or_nan, without_bom};
 
 /// Keywords of the format that say nothing about the surface.
 const IGNORED: [&[u8]; 31] = [
@@ -47,10 +48,12 @@ const IGNORED: [&[u8]; 31] = [
 const MAX_NAME: usize = 255;
 
 /// What of a file can be used.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Usable {
     pub vertices: usize,
-    /// Whether every vertex has a colour.
+    /// Which of them have coordinates; empty: all. No face uses one that has none.
+    pub sound: Vec<bool>,
+    /// Whether every sound vertex has a colour.
     pub coloured: bool,
     /// How many texture points there are; `None` if no face uses any, or if they are of no use.
     pub texture_points: Option<usize>,
@@ -66,13 +69,20 @@ pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Warned<Usable>, Diagnost
     scan.finish()
 }
 
-/// Lines with continuations (a `\` at the end) joined and comments cut off; the number is that of the first one.
+/// Keywords of lines of numbers, which a `\` at the end continues. Behind all others there are names of things and files, and
+/// some programs write names that end in a `\`.
+const CONTINUED: [&[u8]; 21] = [
+    b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"cstype", b"deg", b"bmat", b"step",
+    b"curv", b"curv2", b"surf", b"parm", b"trim", b"hole", b"scrv", b"sp", b"con",
+];
+
+/// Lines with continuations joined and comments cut off; the number is that of the first one.
 pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
     let mut physical = lines(without_bom(bytes));
     std::iter::from_fn(move || {
         let (number, first) = physical.next()?;
         let mut line = first.to_vec();
-        while !is_comment(&line) && line.trim_ascii_end().last() == Some(&b'\\') {
+        while is_continued(&line) && line.trim_ascii_end().last() == Some(&b'\\') {
             line.truncate(line.trim_ascii_end().len() - 1);
             line.push(b' ');
             let Some((_, more)) = physical.next() else {
@@ -90,8 +100,10 @@ pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8
     })
 }
 
-fn is_comment(line: &[u8]) -> bool {
-    line.trim_ascii_start().first() == Some(&b'#')
+fn is_continued(line: &[u8]) -> bool {
+    let mut words = line.trim_ascii_start().split(u8::is_ascii_whitespace);
+    let keyword = words.next().unwrap_or_default();
+    CONTINUED.contains(&keyword.strip_suffix(b"\\").unwrap_or(keyword))
 }
 
 /// What has been read so far.
@@ -99,6 +111,8 @@ struct Scan<'a> {
     file: &'a str,
     bytes: &'a [u8],
     vertices: usize,
+    /// By line.
+    flaws: Flaws<usize>,
     colours: Colours,
     texture_points: usize,
     /// The first texture point that is none: its line, and why.
@@ -120,6 +134,7 @@ impl<'a> Scan<'a> {
             file,
             bytes,
             vertices: 0,
+            flaws: Flaws::default(),
             colours: Colours::default(),
             texture_points: 0,
             bad_texture: None,
@@ -188,13 +203,19 @@ impl<'a> Scan<'a> {
         line: &[u8],
         mut words: impl Iterator<Item = &'w [u8]>,
     ) -> Result<(), Diagnostic> {
-        let mut count = 0;
+        let (mut count, mut flaw) = (0, None);
         for word in words.by_ref().take(3) {
-            coordinate(word).map_err(|why| {
-                let vertex = self.vertices + 1;
-                let message = format!("vertex {vertex} has a coordinate that is {why}");
-                at_line(self.file, number, line, message)
-            })?;
+            if let Err(why) = coordinate(word) {
+                if number_or_nan(word).is_err() {
+                    return Err(at_line(
+                        self.file,
+                        number,
+                        line,
+                        no_coordinate(self.vertices, &why),
+                    ));
+                }
+                flaw.get_or_insert(why);
+            }
             count += 1;
         }
         if count < 3 {
@@ -202,6 +223,10 @@ impl<'a> Scan<'a> {
             return Err(at_line(self.file, number, line, message));
         }
         self.vertices += 1;
+        if let Some(why) = flaw {
+            self.flaws.add(self.vertices - 1, number, why);
+            return Ok(());
+        }
         // Three more numbers are a colour; one is a weight, and what more would be nobody agrees on.
         let more: Vec<&[u8]> = words.take(4).collect();
         if let [r, g, b] = more[..] {
@@ -284,16 +309,25 @@ impl<'a> Scan<'a> {
             return of_file("the file has more than 4294967294 vertices".to_owned());
         }
         self.check_range()?;
+        self.check_flaws()?;
         let mut warnings = self.warnings();
-        let coloured = self.colours.finish(self.file).unwrap_or_else(|warning| {
-            warnings.push(warning);
-            false
-        });
+        warnings.extend(self.flaws.left_out(self.file));
+        let coloured = self
+            .colours
+            .finish(self.file, |line| excerpt(self.text_of(line)))
+            .unwrap_or_else(|warning| {
+                warnings.push(warning);
+                false
+            });
         let unused = self.largest_vt.0 == 0 || self.bad_texture.is_some() || self.dangling();
         Ok(Warned {
             warnings,
             value: Usable {
                 vertices: self.vertices,
+                sound: match self.flaws.is_empty() {
+                    true => Vec::new(),
+                    false => self.flaws.sound(self.vertices),
+                },
                 coloured,
                 texture_points: (!unused).then_some(self.texture_points),
             },
@@ -313,8 +347,44 @@ impl<'a> Scan<'a> {
             return Ok(());
         };
         let message = format!("a face uses vertex {index}, but the file has {vertices} vertices");
-        let (_, text) = lines(self.bytes).nth(line - 1).unwrap_or_default();
-        Err(at_line(self.file, *line, text, message))
+        Err(at_line(self.file, *line, self.text_of(*line), message))
+    }
+
+    /// Faces may use vertices without coordinates before these are there, so the file is gone through again.
+    fn check_flaws(&self) -> Result<(), Diagnostic> {
+        if self.flaws.is_empty() {
+            return Ok(());
+        }
+        let mut used = vec![false; self.vertices];
+        let mut so_far = 0;
+        for (_, line) in logical_lines(self.bytes) {
+            let mut words = line
+                .split(u8::is_ascii_whitespace)
+                .filter(|w| !w.is_empty());
+            match words.next() {
+                Some(b"v") => so_far += 1,
+                Some(b"f" | b"fo") => {
+                    for word in words {
+                        let vertex = word.split(|b| *b == b'/').next().unwrap_or_default();
+                        if let Ok(position) = index(vertex, so_far, "vertex") {
+                            used[position - 1] = true;
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        let used = (0..self.vertices).filter(|v| used[*v]);
+        let Some(flaw) = self.flaws.first_used(self.vertices, used) else {
+            return Ok(());
+        };
+        let message = no_coordinate(flaw.vertex, &flaw.why);
+        Err(at_line(self.file, flaw.at, self.text_of(flaw.at), message))
+    }
+
+    /// A line of the file.
+    fn text_of(&self, line: usize) -> &[u8] {
+        lines(self.bytes).nth(line - 1).unwrap_or_default().1
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
@@ -323,7 +393,7 @@ impl<'a> Scan<'a> {
             warnings.push(Diagnostic::warning(message).at(Place::Line {
                 file: self.file.to_owned(),
                 line,
-                excerpt: String::new(),
+                excerpt: excerpt(self.text_of(line)),
             }));
         };
         let missing_vt = self.largest_vt.0 > self.texture_points;
@@ -369,6 +439,10 @@ impl<'a> Scan<'a> {
         }
         warnings
     }
+}
+
+fn no_coordinate(vertex: usize, why: &str) -> String {
+    format!("vertex {} has a coordinate that is {why}", vertex + 1)
 }
 
 /// An absolute 1-based index; `so_far` elements of its kind have been defined above.

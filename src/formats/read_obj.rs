@@ -2,7 +2,7 @@
 //!
 //! `tobj` reads; what it is given has been checked line by line ([`check`]) and cleaned here of all that it stumbles over:
 //! comments behind a line, lines continued by `\`, weights (it divides by them), groups and materials (it splits the mesh at them),
-//! colours of some vertices only, texture points that cannot be used. It numbers vertices as faces come to use them, so the
+//! colours of some vertices only, texture points that cannot be used, vertices without coordinates. It numbers vertices as faces come to use them, so the
 //! first face it sees calls all of them in the file's order, and the mesh keeps the file's numbers. Colours and texture points
 //! that cannot be used are left out with a warning: the surface is there without them.
 
@@ -12,6 +12,7 @@ use crate::formats::colours;
 use crate::formats::obj_check::{Usable, check, logical_lines};
 use crate::index::VertexId;
 use crate::mesh::polygon::triangulate;
+use crate::mesh::weld::keep_vertices;
 use crate::mesh::{Attributes, NO_UV, TriMesh, Uvs};
 use glam::{DVec2, DVec3};
 use std::io::Write;
@@ -36,7 +37,12 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagno
     let [model] = &models[..] else {
         return Err(failed(tobj::LoadError::GenericFailure));
     };
-    let (mesh, attributes) = from_tobj(&model.mesh, &usable);
+    let (mut mesh, mut attributes) = from_tobj(&model.mesh, &usable);
+    if !usable.sound.is_empty() {
+        keep_vertices(&mut mesh, &usable.sound);
+        let mut keep = usable.sound.iter();
+        attributes.colours.retain(|_| keep.next() == Some(&true));
+    }
     Ok(Warned {
         warnings,
         value: NamedMesh {
@@ -68,6 +74,7 @@ fn clean(bytes: &[u8], usable: &Usable) -> Vec<u8> {
     }
     text.push(b'\n');
     let none = usable.texture_points.map(|count| (count + 1).to_string());
+    let mut sound = usable.sound.iter();
     for (_, line) in logical_lines(bytes) {
         let mut words = line
             .split(u8::is_ascii_whitespace)
@@ -75,7 +82,16 @@ fn clean(bytes: &[u8], usable: &Usable) -> Vec<u8> {
         match words.next() {
             Some(b"v") => {
                 let count = if usable.coloured { 6 } else { 3 };
-                put(&mut text, b"v", words.take(count));
+                if sound.next() == Some(&false) {
+                    // It goes again later: the file's numbers count it.
+                    put(
+                        &mut text,
+                        b"v",
+                        [b"0".as_slice(); 6].into_iter().take(count),
+                    );
+                } else {
+                    put(&mut text, b"v", words.take(count));
+                }
             }
             Some(b"vt") if none.is_some() => {
                 // A point may have one coordinate, or none.

@@ -7,10 +7,12 @@
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::body::NamedMesh;
 use crate::formats::channels::Channels;
+use crate::formats::flaws::{Flaw, Flaws};
 use crate::formats::narrow::{count, index};
-use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, finite};
+use crate::formats::text::{at_byte, at_line, check_coordinate, excerpt, number_or_nan};
 use crate::index::VertexId;
 use crate::mesh::polygon::triangulate;
+use crate::mesh::weld::keep_vertices;
 use crate::mesh::{TriMesh, Uvs};
 use glam::{DVec2, DVec3};
 
@@ -33,6 +35,9 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagno
     for element in &header.elements {
         body.element(element, &mut builder)?;
         builder.vertices_known |= element.name == "vertex";
+    }
+    if let Some(flaw) = builder.used_flaw() {
+        return Err(body.flawed(flaw));
     }
     let (mesh, mut warnings) = builder.finish(file)?;
     let left = bytes.get(body.at..).unwrap_or_default().trim_ascii();
@@ -318,6 +323,7 @@ impl Body<'_> {
         let mut list = Vec::new();
         for row in 0..element.count {
             let mut point = [0.0; 3];
+            let mut flaw = None;
             for (property, role) in element.properties.iter().zip(&roles) {
                 let start = self.at;
                 let count = match property.length {
@@ -328,9 +334,15 @@ impl Body<'_> {
                 for _ in 0..count {
                     list.push(self.scalar(property.scalar, element, row)?);
                 }
-                let at = (start, row, element);
+                let at = (start, row, element.name.as_str());
                 match role {
-                    Role::Axis(axis) => point[*axis] = self.axis(list[0], at)?,
+                    Role::Axis(axis) => {
+                        point[*axis] = list[0];
+                        if let Err(why) = check_coordinate(list[0]) {
+                            let line = self.line;
+                            flaw.get_or_insert((RowPlace { row, start, line }, why));
+                        }
+                    }
                     Role::Channel(channel) => builder.channels.push(*channel, list[0]),
                     Role::CornerUvs => builder.corner_uvs(&list),
                     Role::Polygon => builder.polygon(&list).map_err(|why| self.fail(at, why))?,
@@ -339,14 +351,25 @@ impl Body<'_> {
                 }
             }
             if element.name == "vertex" {
+                if let Some((place, why)) = flaw {
+                    builder.flaws.add(builder.vertices.len(), place, why);
+                }
                 builder.vertices.push(DVec3::from_array(point));
             }
         }
         Ok(())
     }
 
-    fn fail(&self, (start, row, element): (usize, u64, &Element), why: String) -> Diagnostic {
-        let message = format!("{} {row}: {why}", excerpt(element.name.as_bytes()));
+    /// The message about a vertex that a face uses.
+    fn flawed(&mut self, flaw: &Flaw<RowPlace>) -> Diagnostic {
+        let RowPlace { row, start, line } = flaw.at;
+        self.line = line;
+        let why = format!("a coordinate that is {}", flaw.why);
+        self.fail((start, row, "vertex"), why)
+    }
+
+    fn fail(&self, (start, row, element): (usize, u64, &str), why: String) -> Diagnostic {
+        let message = format!("{} {row}: {why}", excerpt(element.as_bytes()));
         match self.encoding {
             Encoding::Text => at_line(self.file, self.line, self.text_line(start), message),
             _ => at_byte(self.file, start, message),
@@ -371,10 +394,6 @@ impl Body<'_> {
         &self.bytes[from..to]
     }
 
-    fn axis(&self, value: f64, at: (usize, u64, &Element)) -> Result<f64, Diagnostic> {
-        check_coordinate(value).map_err(|why| self.fail(at, format!("a coordinate that is {why}")))
-    }
-
     /// The length of a list, known to fit into what is left of the file.
     fn length(
         &mut self,
@@ -385,7 +404,12 @@ impl Body<'_> {
     ) -> Result<usize, Diagnostic> {
         let start = self.at;
         let count = self.scalar(length, element, row)?;
-        let no_length = || self.fail((start, row, element), format!("a list of length {count}"));
+        let no_length = || {
+            self.fail(
+                (start, row, &element.name),
+                format!("a list of length {count}"),
+            )
+        };
         if count < 0.0 || count.fract() != 0.0 {
             return Err(no_length());
         }
@@ -398,7 +422,7 @@ impl Body<'_> {
         let left = self.bytes.len() - self.at;
         if count * smallest as f64 > left as f64 {
             let why = format!("a list of {count} items, but the file ends {left} bytes later");
-            return Err(self.fail((start, row, element), why));
+            return Err(self.fail((start, row, &element.name), why));
         }
         index(count).map(|n| n as usize).ok_or_else(no_length)
     }
@@ -415,7 +439,8 @@ impl Body<'_> {
                 return Err(self.short(element, row));
             };
             let word = word.to_vec();
-            return number(&word, scalar).map_err(|why| self.fail((start, row, element), why));
+            return number(&word, scalar)
+                .map_err(|why| self.fail((start, row, &element.name), why));
         }
         let size = scalar.size();
         let Some(raw) = self.bytes.get(start..start + size) else {
@@ -459,7 +484,7 @@ impl Body<'_> {
 
 fn number(word: &[u8], scalar: NumberType) -> Result<f64, String> {
     if matches!(scalar, NumberType::F32 | NumberType::F64) {
-        return finite(word).map_err(|why| format!("a value that is {why}"));
+        return number_or_nan(word).map_err(|why| format!("a value that is {why}"));
     }
     let text = std::str::from_utf8(word).unwrap_or_default();
     text.parse::<i64>()
@@ -467,9 +492,18 @@ fn number(word: &[u8], scalar: NumberType) -> Result<f64, String> {
         .map_err(|_| format!("not a whole number: `{}`", excerpt(word)))
 }
 
+/// Where a value of a row stands.
+struct RowPlace {
+    row: u64,
+    /// Byte, and line in a text file.
+    start: usize,
+    line: usize,
+}
+
 #[derive(Default)]
 struct Builder {
     vertices: Vec<DVec3>,
+    flaws: Flaws<RowPlace>,
     /// Whether all vertices have been read, so that indices can be checked where they stand.
     vertices_known: bool,
     /// Corners of all polygons, and how many each has: vertices may come after the faces.
@@ -529,7 +563,18 @@ impl Builder {
         index(value).ok_or_else(|| format!("a vertex index {value}"))
     }
 
-    fn finish(self, file: &str) -> Result<(NamedMesh, Vec<Diagnostic>), Diagnostic> {
+    /// That of the first flawed vertex that a face uses.
+    fn used_flaw(&self) -> Option<&Flaw<RowPlace>> {
+        if self.flaws.is_empty() {
+            return None;
+        }
+        let used = self.corners.iter().map(|c| *c as usize);
+        self.flaws.first_used(self.vertices.len(), used)
+    }
+
+    /// # Errors
+    /// No faces, or indices out of range. Flawed vertices that faces use have been refused.
+    fn finish(mut self, file: &str) -> Result<(NamedMesh, Vec<Diagnostic>), Diagnostic> {
         let place = || Place::File(file.to_owned());
         let count = self.vertices.len();
         if self.arities.is_empty() {
@@ -544,8 +589,16 @@ impl Builder {
         }
         let corners = self.triangles();
         let faces = corners.iter().map(|t| t.map(|c| self.corners[c as usize]));
-        let mesh = TriMesh::new(self.vertices, faces);
+        let mut mesh = TriMesh::new(self.vertices, faces);
+        let left_out = self.flaws.left_out(file);
+        if left_out.is_some() {
+            let kept = self.flaws.sound(count);
+            keep_vertices(&mut mesh, &kept);
+            self.channels.keep(&kept);
+        }
+        let count = mesh.vertices.len();
         let (mut attributes, mut warnings) = self.channels.finish(file, count, &mesh.faces);
+        warnings.extend(left_out);
         let sound = self.uvs.iter().all(|p| p.is_finite());
         if sound && self.uv_counts == self.arities {
             attributes.uvs = Some(Uvs {

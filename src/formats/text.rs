@@ -1,12 +1,14 @@
 //! Places and numbers in text files: lines of any ending, excerpts that are safe to print, coordinates that are finite.
 
-use crate::diag::{Diagnostic, Place};
+use crate::diag::{Diagnostic, Place, escaped};
 
 /// Longest excerpt of a user's line in a message, characters.
 const MAX_EXCERPT: usize = 80;
 
 /// Coordinates beyond this many millimetres (a thousand million kilometres) are nobody's model.
 pub(super) const LARGEST_COORDINATE: f64 = 1e15;
+
+const NOT_FINITE: &str = "not a finite number";
 
 /// Lines of a text file with their numbers, 1-based. Ends a line at `\n`, `\r\n` or a lone `\r`.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
@@ -36,12 +38,7 @@ pub(super) fn without_bom(bytes: &[u8]) -> &[u8] {
 /// Shortened, one line, printable characters only.
 pub(super) fn excerpt(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * MAX_EXCERPT)]);
-    let mut shown: String = text
-        .trim()
-        .chars()
-        .take(MAX_EXCERPT)
-        .map(|c| if c.is_control() { '\u{FFFD}' } else { c })
-        .collect();
+    let mut shown = escaped(&text.trim().chars().take(MAX_EXCERPT).collect::<String>());
     if text.trim().chars().count() > MAX_EXCERPT || bytes.len() > 4 * MAX_EXCERPT {
         shown.push_str("...");
     }
@@ -86,7 +83,7 @@ pub(super) fn finite(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).ok().filter(|t| t.is_ascii());
     match text.and_then(|t| t.parse::<f64>().ok()) {
         Some(v) if v.is_finite() => Ok(v),
-        Some(_) => Err("not a finite number".to_owned()),
+        Some(_) => Err(NOT_FINITE.to_owned()),
         None if word.contains(&b',') => Err(format!(
             "not a number: `{}` (decimals are written with a point)",
             excerpt(word)
@@ -95,13 +92,30 @@ pub(super) fn finite(word: &[u8]) -> Result<f64, String> {
     }
 }
 
+/// Any number, as programs spell them; NaN for all that are not finite, `1.#IND` and `-nan(ind)` of old C libraries among them.
+///
+/// # Errors
+/// As [`coordinate`].
+pub(super) fn number_or_nan(word: &[u8]) -> Result<f64, String> {
+    finite(word).or_else(|why| {
+        let bare = word.strip_prefix(b"-").unwrap_or(word).to_ascii_lowercase();
+        let spelled = [b"nan".as_slice(), b"inf", b"1.#"];
+        let spelled = spelled.iter().any(|s| bare.starts_with(s));
+        if spelled || why == NOT_FINITE {
+            Ok(f64::NAN)
+        } else {
+            Err(why)
+        }
+    })
+}
+
 /// A coordinate that is finite and not absurdly large.
 ///
 /// # Errors
 /// As [`coordinate`].
 pub(super) fn check_coordinate(value: f64) -> Result<f64, String> {
     if !value.is_finite() {
-        Err("not a finite number".to_owned())
+        Err(NOT_FINITE.to_owned())
     } else if value.abs() > LARGEST_COORDINATE {
         Err(format!("too large: {value:.0e}, more than 1e15"))
     } else {

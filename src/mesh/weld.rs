@@ -128,24 +128,29 @@ pub fn drop_unreferenced(mesh: &mut TriMesh) -> usize {
 }
 
 /// Drops vertices that no face uses; gives the new index of each old vertex that stays.
-///
-/// # Panics
-/// Never with fewer than 2^32 vertices.
 pub fn keep_referenced(mesh: &mut TriMesh) -> Vec<Option<VertexId>> {
     let mut used = vec![false; mesh.vertices.len()];
     for v in mesh.faces.iter().flatten() {
         used[*v] = true;
     }
+    keep_vertices(mesh, &used)
+}
+
+/// Drops the vertices not marked true; gives the new index of each old vertex that stays.
+///
+/// # Panics
+/// If a face uses a vertex that is to go.
+pub fn keep_vertices(mesh: &mut TriMesh, kept: &[bool]) -> Vec<Option<VertexId>> {
     let mut next = 0;
-    let number = |used: &bool| {
-        next += u32::from(*used);
-        used.then(|| VertexId(next - 1))
+    let number = |kept: &bool| {
+        next += u32::from(*kept);
+        kept.then(|| VertexId(next - 1))
     };
-    let new_index: Vec<Option<VertexId>> = used.iter().map(number).collect();
-    let mut keep = used.iter();
+    let new_index: Vec<Option<VertexId>> = kept.iter().map(number).collect();
+    let mut keep = kept.iter();
     mesh.vertices.retain(|_| keep.next() == Some(&true));
     for face in &mut mesh.faces {
-        *face = face.map(|v| new_index[v].expect("every corner is used"));
+        *face = face.map(|v| new_index[v].expect("every corner is kept"));
     }
     new_index
 }
