@@ -46,6 +46,7 @@ fn main() -> std::io::Result<()> {
         &corpus.join("ply"),
         &[ply_text(), ply_binary(false), ply_binary(true)],
     )?;
+    write(&corpus.join("off"), &[off()])?;
     write(&corpus.join("threemf"), &[three_mf(false), three_mf(true)])?;
     write(&corpus.join("scene"), &scenes)?;
     let set = |text: &Vec<u8>| ASSIGNMENTS.map(|a| [a.as_bytes(), b"\n", text].concat());
@@ -138,6 +139,17 @@ fn ply_header(format: &str) -> String {
         "ply\nformat {format} 1.0\ncomment cube\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n\
          property uchar red\nelement face 6\nproperty list uchar int vertex_indices\nelement edge 1\nproperty short a\nend_header\n"
     )
+}
+
+fn off() -> Vec<u8> {
+    let mut text = "COFF\n8 6 0\n".to_owned();
+    for [x, y, z] in CUBE {
+        text += &format!("{x} {y} {z} 255 0 0 255\n");
+    }
+    for [a, b, c, d] in SIDES {
+        text += &format!("4 {a} {b} {c} {d} 0.5 0.5 0.5\n");
+    }
+    text.into_bytes()
 }
 
 fn ply_text() -> Vec<u8> {

@@ -114,7 +114,7 @@ fn scene_chapters() -> Vec<Chapter> {
         ]),
         chapter("model", "A mesh file and where it stands.", vec![
             field("name", "text", REQUIRED, "what views call it"),
-            field("file", "text", REQUIRED, "OBJ, STL or PLY in the scene's folder or below, or by name in --models DIR"),
+            field("file", "text", REQUIRED, "OBJ, STL, PLY, OFF or 3MF in the scene's folder or below, or by name in --models DIR"),
             field("units", "mm | cm | m | inch", "mm", "of the file's coordinates, when fitted without a size"),
             field("place", "Fit(...) | Matrix(...)", "Fit()", "Matrix([(a, b, c, d), (..), (..), (..)]): 4 x 4 by rows, from file coordinates to mm"),
             field("regions", "[region, ...]", "[]", "vertices that count more or less, or are free of the layer"),
@@ -246,7 +246,7 @@ fn body_chapters() -> Vec<Chapter> {
             field("pitch", "length", format!("{} mm", defaults::WAVE_PITCH), "largest distance of its points"),
             at(), facing(), lean(), depth(),
         ]),
-        chapter("Image(...)", "Heights from a PNG stretched over the face.", vec![
+        chapter("Image(...)", "Heights from a PNG (8 or 16 bits) stretched over the face.", vec![
             field("file", "text", REQUIRED, "in the scene's folder or below"),
             field("from", "length", "0 mm", "height of black"),
             field("to", "length", REQUIRED, "height of white"),
