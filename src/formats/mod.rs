@@ -27,6 +27,7 @@ mod read_off;
 mod read_ply;
 mod read_stl;
 mod read_stl_text;
+mod slicer_3mf;
 mod sniff;
 mod stl;
 mod surface;

@@ -1,13 +1,16 @@
 //! 3MF: the zip container and the putting together of its objects.
 //!
 //! Untrusted throughout: entries are inflated up to a cap only, no entry is ever written by its name, components may
-//! neither form a cycle nor multiply without end.
+//! neither form a cycle nor multiply without end. Objects that are no bodies (supports, and what slicers cut away or only use to
+//! modify settings) are left out with a warning.
 
 use crate::diag::{Diagnostic, Place, Warned};
 use crate::formats::body::NamedMesh;
+use crate::formats::slicer_3mf::{Aside, CONFIGS, NEGATIVE, PartOf, asides};
 use crate::formats::text::excerpt;
 use crate::formats::xml_3mf::{self, Instance, ModelPart, XmlObject};
 use crate::mesh::Attributes;
+use crate::mesh::weld::{drop_unreferenced, retain_faces};
 use glam::{DMat4, DVec3};
 use quick_xml::events::Event;
 use std::io::{Cursor, Read};
@@ -21,6 +24,8 @@ const ALWAYS_ALLOWED: u64 = 1 << 20;
 const MAX_INSTANCES: usize = 10_000;
 const MAX_TRIANGLES: usize = 20_000_000;
 const MAX_COMPONENT_DEPTH: usize = 32;
+/// Parts left out that a warning names one by one.
+const MAX_NAMED: usize = 8;
 
 /// The bodies of the build, in place, in millimetres.
 ///
@@ -30,16 +35,24 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, D
     let of_file = |why: String| Diagnostic::error(why).at(Place::File(file.to_owned()));
     let mut container = Container::open(bytes).map_err(of_file)?;
     let root = container.model_part().map_err(of_file)?;
+    let mut warnings = Vec::new();
+    let asides = container.asides(|why| {
+        warnings.push(Diagnostic::warning(why).at(Place::File(file.to_owned())));
+    });
     let mut assembly = Assembly {
         file,
         container,
         parts: Vec::new(),
         bodies: Vec::new(),
+        asides,
+        root: 0,
+        left_out: Vec::new(),
         instances: 0,
         triangles: 0,
     };
     let root = assembly.part(&root)?;
-    let mut warnings = Vec::new();
+    assembly.root = root;
+    assembly.drop_volumes();
     let mut items = assembly.parts[root].1.items.clone();
     if items.is_empty() {
         let message = "the build is empty: all objects are taken";
@@ -56,9 +69,19 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, D
     for item in &items {
         assembly.add(root, item, DMat4::IDENTITY, "", 0)?;
     }
-    if assembly.bodies.iter().all(|b| b.mesh.faces.is_empty()) {
-        return Err(of_file("the file has no triangles".to_owned()));
+    if assembly.parts.iter().any(|(_, part)| part.beams) {
+        let message = "the beams of a lattice are not read: only triangles are";
+        warnings.push(Diagnostic::warning(message).at(Place::File(file.to_owned())));
     }
+    let left_out = assembly.left_out();
+    if assembly.bodies.is_empty() {
+        let why = "the file has no triangles".to_owned();
+        return Err(of_file(match &left_out {
+            Some(left_out) => format!("{why} of bodies: {}", left_out.message),
+            None => why,
+        }));
+    }
+    warnings.extend(left_out);
     Ok(Warned {
         value: assembly.bodies,
         warnings,
@@ -120,25 +143,59 @@ impl<'a> Container<'a> {
         Ok(bytes)
     }
 
-    /// The part that the package's relations name as the model, or the usual one.
+    /// The part that the package's relations name as the model, or the usual one where they name none.
     fn model_part(&mut self) -> Result<String, String> {
-        let named = match self.entry("_rels/.rels") {
-            Some(rels) => model_target(&self.inflate(&rels)?),
-            None => None,
+        let mut named = match self.entry("_rels/.rels") {
+            Some(rels) => models(&self.inflate(&rels)?)?,
+            None => Vec::new(),
         };
-        let candidates = [named.as_deref().unwrap_or_default(), "3D/3dmodel.model"];
-        candidates
-            .iter()
-            .find_map(|path| self.entry(path))
-            .ok_or_else(|| "the archive has no model part (3D/3dmodel.model)".to_owned())
+        named.dedup();
+        let path = match &named[..] {
+            [] => "3D/3dmodel.model",
+            [path] => path,
+            [a, b, ..] => {
+                let [a, b] = [a, b].map(|p| excerpt(p.as_bytes()));
+                return Err(format!(
+                    "the archive names several parts as its model, `{a}` and `{b}`; one wanted"
+                ));
+            }
+        };
+        self.entry(path).ok_or_else(|| match named.is_empty() {
+            true => "the archive has no model part (3D/3dmodel.model)".to_owned(),
+            false => format!(
+                "the archive names `{}` as its model, but does not hold it",
+                excerpt(path.as_bytes())
+            ),
+        })
+    }
+
+    /// Parts of objects that are no bodies, by what slicers write; what cannot be read of that is passed to `warn`.
+    fn asides(&mut self, mut warn: impl FnMut(String)) -> Vec<Aside> {
+        let mut all = Vec::new();
+        for path in CONFIGS {
+            let Some(entry) = self.entry(path) else {
+                continue;
+            };
+            match self.inflate(&entry).and_then(|bytes| asides(&bytes)) {
+                Ok(found) => all.extend(found),
+                Err(why) => warn(format!(
+                    "`{path}` in the archive is not used, so that parts which cut away look like bodies: {why}"
+                )),
+            }
+        }
+        all
     }
 }
 
-/// The target of the first relation whose type is the 3D model.
-fn model_target(rels: &[u8]) -> Option<String> {
+/// The targets of all relations whose type is the 3D model.
+///
+/// # Errors
+/// One that lies outside of the archive: nothing is fetched from anywhere.
+fn models(rels: &[u8]) -> Result<Vec<String>, String> {
     let mut reader = quick_xml::Reader::from_reader(rels);
-    loop {
-        match reader.read_event().ok()? {
+    let mut found = Vec::new();
+    while let Ok(event) = reader.read_event() {
+        match event {
             Event::Start(e) | Event::Empty(e) if e.local_name().as_ref() == b"Relationship" => {
                 let value = |name: &str| {
                     let attribute = e.try_get_attribute(name).ok()??;
@@ -148,13 +205,20 @@ fn model_target(rels: &[u8]) -> Option<String> {
                         .map(std::borrow::Cow::into_owned)
                 };
                 if value("Type").is_some_and(|t| t.ends_with("/3dmodel")) {
-                    return value("Target");
+                    let target = value("Target").unwrap_or_default();
+                    if value("TargetMode").is_some_and(|mode| mode.eq_ignore_ascii_case("external"))
+                    {
+                        let target = excerpt(target.as_bytes());
+                        return Err(format!("the model lies outside of the archive: `{target}`"));
+                    }
+                    found.push(target);
                 }
             }
-            Event::Eof => return None,
+            Event::Eof => break,
             _ => {}
         }
     }
+    Ok(found)
 }
 
 /// Parts read so far and bodies made of them.
@@ -163,6 +227,11 @@ struct Assembly<'a> {
     container: Container<'a>,
     parts: Vec<(String, ModelPart)>,
     bodies: Vec<NamedMesh>,
+    asides: Vec<Aside>,
+    /// The part that [`Assembly::asides`] speak of.
+    root: usize,
+    /// Names of what was left out and what that is, each once.
+    left_out: Vec<(String, &'static str)>,
     instances: usize,
     triangles: usize,
 }
@@ -215,6 +284,11 @@ impl Assembly<'_> {
         let Some(object) = self.parts[part].1.objects.iter().find(|o| o.id == id) else {
             return Err(self.fail(format!("object {id} is used but does not exist")));
         };
+        if let Some(what) = object.no_body {
+            let name = named(&object.name, || format!("object {id}"));
+            self.leave_out(name, what);
+            return Ok(());
+        }
         let matrix = outer * instance.transform;
         let name = if object.name.is_empty() {
             name.to_owned()
@@ -240,9 +314,100 @@ impl Assembly<'_> {
             self.bodies.push(body);
         }
         for component in &components {
-            self.add(part, component, matrix, &name, depth + 1)?;
+            if !self.stands_aside(part, id, component.object) {
+                self.add(part, component, matrix, &name, depth + 1)?;
+            }
         }
         Ok(())
+    }
+
+    /// Takes volumes that are no bodies out of the objects of the root part.
+    fn drop_volumes(&mut self) {
+        let mut left_out = Vec::new();
+        for object in &mut self.parts[self.root].1.objects {
+            // How many volumes begin or end at each triangle.
+            let mut steps = vec![0i64; object.mesh.faces.len() + 1];
+            let of_object = self.asides.iter().filter(|a| a.object == object.id);
+            for aside in of_object {
+                let PartOf::Faces(first, last) = aside.of else {
+                    continue;
+                };
+                if first > last || last >= object.mesh.faces.len() {
+                    continue;
+                }
+                steps[first] += 1;
+                steps[last + 1] -= 1;
+                let id = object.id;
+                let name = named(&aside.name, || format!("a volume of object {id}"));
+                left_out.push((name, aside.role));
+            }
+            let mut inside = 0;
+            let is_body = |step: &i64| {
+                inside += step;
+                inside == 0
+            };
+            let kept: Vec<bool> = steps
+                .iter()
+                .map(is_body)
+                .take(object.mesh.faces.len())
+                .collect();
+            if retain_faces(&mut object.mesh, &kept) > 0 {
+                drop_unreferenced(&mut object.mesh);
+            }
+        }
+        for (name, role) in left_out {
+            self.leave_out(name, role);
+        }
+    }
+
+    /// Whether a slicer says that a component of an object is no body; notes it then.
+    fn stands_aside(&mut self, part: usize, object: u32, component: u32) -> bool {
+        let is_it = |a: &&Aside| a.object == object && a.of == PartOf::Component(component);
+        let found = self.asides.iter().find(is_it);
+        let Some(aside) = found.filter(|_| part == self.root) else {
+            return false;
+        };
+        let name = named(&aside.name, || {
+            format!("part {component} of object {object}")
+        });
+        let role = aside.role;
+        self.leave_out(name, role);
+        true
+    }
+
+    fn leave_out(&mut self, name: String, what: &'static str) {
+        if !self.left_out.iter().any(|(n, w)| (n, *w) == (&name, what)) {
+            self.left_out.push((name, what));
+        }
+    }
+
+    /// A warning that names what was left out.
+    fn left_out(&self) -> Option<Diagnostic> {
+        if self.left_out.is_empty() {
+            return None;
+        }
+        let shown = self.left_out.iter().take(MAX_NAMED);
+        let mut list: Vec<String> = shown
+            .map(|(name, what)| format!("{name} ({what})"))
+            .collect();
+        if self.left_out.len() > MAX_NAMED {
+            list.push(format!("{} more", self.left_out.len() - MAX_NAMED));
+        }
+        let message = format!("left out what is no body: {}", list.join(", "));
+        let warning = Diagnostic::warning(message).at(Place::File(self.file.to_owned()));
+        Some(match self.left_out.iter().any(|(_, what)| *what == NEGATIVE) {
+            true => warning.help(
+                "what it would cut away is still there: to have it cut, export the plate as STL from the slicer",
+            ),
+            false => warning,
+        })
+    }
+}
+
+fn named(name: &str, or: impl FnOnce() -> String) -> String {
+    match name.is_empty() {
+        true => or(),
+        false => format!("`{}`", excerpt(name.as_bytes())),
     }
 }
 

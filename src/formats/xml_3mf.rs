@@ -9,6 +9,7 @@ use crate::mesh::TriMesh;
 use glam::{DMat4, DVec3, DVec4};
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
+use std::collections::BTreeSet;
 
 /// One part.
 #[derive(Debug, Default)]
@@ -17,12 +18,18 @@ pub(super) struct ModelPart {
     pub unit_mm: f64,
     pub objects: Vec<XmlObject>,
     pub items: Vec<Instance>,
+    /// Whether it has beams, which are not read.
+    pub beams: bool,
+    has_model: bool,
+    ids: BTreeSet<u32>,
 }
 
 #[derive(Debug)]
 pub(super) struct XmlObject {
     pub id: u32,
     pub name: String,
+    /// Its type, if that says that it is no body.
+    pub no_body: Option<&'static str>,
     pub mesh: TriMesh,
     pub components: Vec<Instance>,
 }
@@ -40,7 +47,8 @@ pub(super) struct Instance {
 pub(super) type XmlError = (u64, String);
 
 /// # Errors
-/// Broken XML, a document type, numbers that are none, indices out of range.
+/// Broken XML, a document type, a part that is no model or several, extensions that are needed but not read, numbers that are none,
+/// indices out of range.
 pub(super) fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
     let mut reader = Reader::from_reader(bytes);
     let mut part = ModelPart {
@@ -55,10 +63,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
             .map_err(|e| (reader.error_position(), format!("broken XML: {e}")))?;
         match event {
             Event::Start(e) => {
+                outermost(&part, &e, depth).map_err(|why| (at, why))?;
                 depth += 1;
                 element(&mut part, &e).map_err(|why| (at, why))?;
             }
             Event::Empty(e) => {
+                outermost(&part, &e, depth).map_err(|why| (at, why))?;
                 element(&mut part, &e).map_err(|why| (at, why))?;
                 close(&part, e.local_name().as_ref()).map_err(|why| (at, why))?;
             }
@@ -77,19 +87,45 @@ pub(super) fn parse(bytes: &[u8]) -> Result<ModelPart, XmlError> {
     }
 }
 
+/// A part is one `model` and nothing else.
+fn outermost(part: &ModelPart, e: &BytesStart, depth: usize) -> Result<(), String> {
+    let name = e.local_name();
+    match (name.as_ref(), depth) {
+        (b"model", 0) if !part.has_model => Ok(()),
+        (b"model", _) => Err("a second `model` in one part, which has one".to_owned()),
+        (_, 0) => Err(format!(
+            "the outermost element is `{}`, `model` wanted",
+            excerpt(name.as_ref())
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
     match e.local_name().as_ref() {
         b"model" => {
+            part.has_model = true;
+            check_extensions(e)?;
             if let Some(unit) = attribute(e, b"unit")? {
                 part.unit_mm = unit_mm(&unit)?;
             }
         }
-        b"object" => part.objects.push(XmlObject {
-            id: index(e, b"id")?,
-            name: attribute(e, b"name")?.unwrap_or_default(),
-            mesh: TriMesh::default(),
-            components: Vec::new(),
-        }),
+        b"object" => {
+            let id = index(e, b"id")?;
+            if !part.ids.insert(id) {
+                return Err(format!("two objects have the id {id}"));
+            }
+            part.objects.push(XmlObject {
+                id,
+                no_body: match attribute(e, b"type")? {
+                    Some(word) => no_body(&word)?,
+                    None => None,
+                },
+                name: attribute(e, b"name")?.unwrap_or_default(),
+                mesh: TriMesh::default(),
+                components: Vec::new(),
+            });
+        }
         b"vertex" => {
             if let Some(object) = part.objects.last_mut() {
                 let p = DVec3::new(number(e, b"x")?, number(e, b"y")?, number(e, b"z")?);
@@ -109,6 +145,7 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
             }
         }
         b"item" => part.items.push(instance(e)?),
+        b"beam" => part.beams = true,
         _ => {}
     }
     Ok(())
@@ -128,6 +165,55 @@ fn close(part: &ModelPart, name: &[u8]) -> Result<(), String> {
         )),
         None => Ok(()),
     }
+}
+
+/// What an object of this type is, if it is no body.
+fn no_body(word: &str) -> Result<Option<&'static str>, String> {
+    Ok(match word {
+        "model" | "surface" => None,
+        "support" => Some("type support"),
+        "solidsupport" => Some("type solidsupport"),
+        "other" => Some("type other"),
+        _ => {
+            return Err(format!(
+                "an object of the unknown type `{}`; model, surface, support, solidsupport or other wanted",
+                excerpt(word.as_bytes())
+            ));
+        }
+    })
+}
+
+/// Namespaces of extensions that a model may need: those that are read (production), those that add no surface (materials, sets of
+/// triangles), and the names of some others.
+const READ: [&str; 3] = ["/production/", "/material/", "/trianglesets/"];
+const KNOWN: [(&str, &str); 6] = [
+    ("/beamlattice/", "beam lattice"),
+    ("/slice/", "slice"),
+    ("/securecontent/", "secure content"),
+    ("/volumetric/", "volumetric"),
+    ("/booleanoperations/", "boolean operations"),
+    ("/displacement/", "displacement"),
+];
+
+/// # Errors
+/// If the model cannot be read without an extension that is not known here.
+fn check_extensions(e: &BytesStart) -> Result<(), String> {
+    let needed = attribute(e, b"requiredextensions")?.unwrap_or_default();
+    for prefix in needed.split_ascii_whitespace() {
+        let namespace = attribute(e, prefix.as_bytes())?.unwrap_or_default();
+        if READ.iter().any(|r| namespace.contains(r)) {
+            continue;
+        }
+        let known = KNOWN.iter().find(|(part, _)| namespace.contains(part));
+        let name = match known {
+            Some((_, name)) => format!("the {name} extension"),
+            None => format!("the extension `{}`", excerpt(prefix.as_bytes())),
+        };
+        return Err(format!(
+            "the model needs {name} of 3MF, which is not read: save it as triangles (STL)"
+        ));
+    }
+    Ok(())
 }
 
 fn instance(e: &BytesStart) -> Result<Instance, String> {

@@ -9,6 +9,7 @@ mod cli;
 mod dense;
 mod detail;
 mod diagram;
+mod dialects;
 mod dual;
 mod energies;
 mod figures;
