@@ -88,6 +88,8 @@ pub const STEP: [f64; 2] = [17.0, 20.0];
 pub const STRIP_GAP: f64 = 0.0;
 pub const WAVE_PITCH: f64 = 1.0;
 pub const MOST_WAVE_POINTS: f64 = 1e6;
+/// Of an image of heights: a photograph has as many, and unpacked they take 300 MB.
+pub const MOST_PIXELS: u64 = 25_000_000;
 pub const LONGEST_FORMULA: usize = 1000;
 pub const LEANS: std::ops::RangeInclusive<f64> = -80.0..=90.0;
 pub const CREASES: std::ops::RangeInclusive<f64> = 0.0..=180.0;

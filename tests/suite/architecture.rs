@@ -23,6 +23,7 @@ const OWNERS: [(&str, &[&str]); 16] = [
     ("clap", &["cli/"]),
     ("signal_hook", &["cli/signals.rs"]),
     ("exmex", &["scene/supports/bodies/heights.rs"]),
+    ("png", &["scene/supports/bodies/image.rs"]),
     ("rand", &["planner/"]),
     ("rand_pcg", &["planner/"]),
 ];

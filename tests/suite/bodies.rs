@@ -4,7 +4,7 @@ use super::shapes::{Outcome, Setting, ball, obj};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build};
-use pillarforest::diag::Diagnostic;
+use pillarforest::diag::{Diagnostic, Place};
 use pillarforest::intake::load_model;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::scene::{self, Scene};
@@ -32,6 +32,15 @@ fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
         "ball.obj" => Ok(obj(&ball(DVec3::ZERO, 20.0, 40))),
         "sheet.obj" => Ok(obj(&sheet())),
         "grey.png" => Ok(ramp()),
+        "deep.png" => Ok(deep()),
+        "huge.png" => Ok(png(
+            [60_000, 60_000],
+            png::ColorType::Grayscale,
+            png::BitDepth::One,
+            &[],
+        )),
+        "cut.png" => Ok(ramp()[..60].to_vec()),
+        "photo.jpg" => Ok(b"\xFF\xD8\xFF\xE0\0\x10JFIF".to_vec()),
         _ => Err(Diagnostic::error(format!("no file {name}"))),
     }
 }
@@ -47,6 +56,33 @@ fn sheet() -> TriMesh {
             corner(-40.0, 80.0),
         ],
         [[0, 1, 2], [0, 2, 3]],
+    )
+}
+
+/// A PNG with these pixels, or only its head.
+fn png(size: [u32; 2], colour: png::ColorType, depth: png::BitDepth, pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
+    let mut writer = encoder.write_header().expect("a header");
+    if !pixels.is_empty() {
+        writer.write_image_data(pixels).expect("pixels");
+    }
+    drop(writer);
+    bytes
+}
+
+/// Three greys of 16 bits, of which 8 bits would keep none: the first two would be one.
+const GREYS: [u16; 3] = [1000, 1027, 60_001];
+
+fn deep() -> Vec<u8> {
+    let pixels = GREYS.map(u16::to_be_bytes).concat();
+    png(
+        [3, 1],
+        png::ColorType::Grayscale,
+        png::BitDepth::Sixteen,
+        &pixels,
     )
 }
 
@@ -331,4 +367,181 @@ fn layers_that_cut_a_body_through_are_refused_with_the_room_there_is() {
         problems[0].message.starts_with("groove leaves -"),
         "{problems:?}"
     );
+}
+
+#[test]
+fn images_keep_sixteen_bits() {
+    let scene =
+        good("Wave(width: 60, height: 40, pitch: 2, heights: Image(file: \"deep.png\", to: 4))");
+    let heights = GREYS.map(|g| 4.0 * f64::from(g) / 65535.0);
+    let mut seen = [0; 3];
+    // The middles of the pixels lie 20 mm apart.
+    for v in scene.supports[0].mesh.vertices.iter().filter(|v| v.y < 9.5) {
+        for ((middle, height), seen) in [-20.0, 0.0, 20.0].into_iter().zip(heights).zip(&mut seen) {
+            if (v.x - middle).abs() < 1e-9 {
+                assert!((-v.y - height).abs() < 1e-6, "{v}: {height} wanted");
+                *seen += 1;
+            }
+        }
+    }
+    assert!(seen.iter().all(|n| *n > 10), "{seen:?}");
+}
+
+#[test]
+fn images_that_cannot_be_read_say_what_is_wanted() {
+    for (file, words, help) in [
+        (
+            "huge.png",
+            "the image has 60000 x 60000 pixels; at most 25 million are read",
+            "make it smaller",
+        ),
+        (
+            "photo.jpg",
+            "the image is a JPEG picture; a PNG is wanted",
+            "save it as PNG",
+        ),
+        (
+            "ball.obj",
+            "the image is no PNG; a PNG is wanted",
+            "save it as PNG",
+        ),
+        ("cut.png", "the PNG is damaged or cut short", "save it anew"),
+    ] {
+        let body = format!("Wave(width: 60, height: 40, heights: Image(file: \"{file}\", to: 4))");
+        let problems = scene::resolve(&text(&body), &read).expect_err(file);
+        let error = problems.iter().find(|p| p.is_error()).expect("an error");
+        assert!(error.message.contains(words), "{file}: {}", error.message);
+        assert!(error.help[0].contains(help), "{file}: {:?}", error.help);
+    }
+}
+
+#[test]
+fn formulas_say_where_they_are_wrong() {
+    let wave = |formula: &str| {
+        text(&format!(
+            "Wave(width: 60, height: 40, heights: Formula(\"{formula}\"))"
+        ))
+    };
+    for (formula, mark, words, help) in [
+        (
+            "2,5",
+            ",",
+            "at its character 2: `,` found, an operator (+ - * / ^) or the end wanted",
+            "2.5",
+        ),
+        (
+            "sinus(x)",
+            "sinus",
+            "unknown name: sinus",
+            "did you mean `sin`?",
+        ),
+        ("x + z", "z", "unknown name: z", "a formula of x and y"),
+        (
+            "2 x",
+            "x",
+            "at its character 3: `x` found, an operator",
+            "a formula",
+        ),
+        (
+            "x * ) + 1",
+            ")",
+            "at its character 5: `)` found, a number, x, y, a function or `(` wanted",
+            "a formula",
+        ),
+        (
+            "max(x; y)",
+            ";",
+            "`;` found, `,` and a second value wanted",
+            "a formula",
+        ),
+        (
+            "1.2.3 + x",
+            "1.2.3",
+            "`1.2.3` found, a number, as 2.5 or 1e-3, wanted",
+            "a formula",
+        ),
+        ("x $ y", "$", "`$` found", "a formula"),
+        (
+            "sin(x",
+            "",
+            "the formula ends where `)` is wanted",
+            "a formula",
+        ),
+        (
+            "x +",
+            "",
+            "the formula ends where a number, x, y, a function or `(` is wanted",
+            "a formula",
+        ),
+        ("", "", "the formula ends where", "a formula"),
+    ] {
+        let text = wave(formula);
+        let problems = scene::resolve(&text, &read).expect_err(formula);
+        let error = problems.iter().find(|p| p.is_error()).expect("an error");
+        assert!(
+            error.message.contains(words),
+            "{formula}: {}",
+            error.message
+        );
+        assert!(error.help[0].contains(help), "{formula}: {:?}", error.help);
+        let Some(Place::Scene(span)) = &error.place else {
+            panic!("{formula}: {:?}", error.place);
+        };
+        let whole = format!("\"{formula}\"");
+        let wanted = if mark.is_empty() { &whole } else { mark };
+        assert_eq!(&text[span.clone()], wanted, "{formula}");
+    }
+    for deep in [
+        format!("{}x{}", "(".repeat(480), ")".repeat(480)),
+        "-".repeat(900) + "x",
+    ] {
+        let _ = scene::resolve(&wave(&deep), &read);
+    }
+    // What reads alike is alike.
+    let heights = |formula: &str| {
+        good(&format!(
+            "Wave(width: 60, height: 40, heights: Formula(\"{formula}\"))"
+        ))
+        .supports[0]
+            .mesh
+            .clone()
+    };
+    for (formula, same) in [
+        ("2e0*sin(x/8)", "2 * sin(x / 8)"),
+        ("max(min(x, 3), -1e-1 * 20)", "min(max(x, -2), 3)"),
+        ("pi - PI + cos(y)", "cos(y)"),
+        ("-(-x / 30)^2", "-(x / 30)^2"),
+    ] {
+        let [a, b] = [formula, same].map(heights);
+        let worst = a
+            .vertices
+            .iter()
+            .zip(&b.vertices)
+            .map(|(p, q)| p.distance(*q))
+            .fold(0.0, f64::max);
+        assert!(worst < 1e-9, "{formula}: {worst}");
+    }
+}
+
+#[test]
+fn flat_models_are_said_to_be_flat() {
+    let lying = "v 0 0 5\nv 10 0 5\nv 10 20 5\nv 0 20 5\nf 1 2 3 4\n";
+    let place = |fit: &str| text("Plate(width: 80, height: 70)").replace("height: 40", fit);
+    let read = |_: &str| Ok(lying.as_bytes().to_vec());
+    let problems = scene::resolve(&place("height: 40"), &read).expect_err("flat");
+    let told: Vec<&str> = problems
+        .iter()
+        .filter(|p| p.is_error())
+        .map(|p| p.message.as_str())
+        .collect();
+    let wanted = "model \"ball\" has no height that could be fitted: as it stands it is 10 wide, 20 deep and 0 high, in units of its file";
+    assert_eq!(told, [wanted]);
+    assert!(
+        problems
+            .iter()
+            .all(|p| !p.message.contains("larger than any printer")),
+        "{problems:?}"
+    );
+    // Stood up it has one.
+    scene::resolve(&place("height: 40, up: \"y\", front: \"z\""), &read).expect("a model");
 }

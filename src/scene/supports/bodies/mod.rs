@@ -7,8 +7,10 @@
 
 mod entry;
 mod framed;
+mod grammar;
 mod groove;
 mod heights;
+mod image;
 mod list;
 mod mesh;
 mod plates;

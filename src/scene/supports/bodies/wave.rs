@@ -3,6 +3,7 @@
 use super::entry::{BodyEntry, frame, name};
 use super::framed::FramedMesh;
 use super::heights;
+use super::image;
 use crate::index::VertexId;
 use crate::mesh::TriMesh;
 use crate::scene::defaults;
@@ -25,7 +26,7 @@ pub(crate) fn wave<'r>(
     let (raw_heights, at) = reader.required(&raw.heights, "heights", "this Wave", entry.span)?;
     let heights = match raw_heights {
         RawHeights::Formula(text) => heights::formula(reader, text, &at),
-        RawHeights::Image(image) => heights::image(reader, image, &at, [width, height], entry.read),
+        RawHeights::Image(image) => image::image(reader, image, &at, [width, height], entry.read),
     }?;
     let mesh = block(width, height, thickness, pitch, heights);
     above_back(reader, &mesh, thickness, &at)?;
