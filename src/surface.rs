@@ -340,9 +340,13 @@ fn notes(view: &View, input: &Input, torn: bool) -> Vec<String> {
             vertex + original.mesh.vertices.len(),
             face + original.mesh.faces.len(),
         ];
-        let lowered = original.lowered_from.map_or(String::new(), |[v, f]| {
-            format!(", simplified from {v} vertices and {f} faces by `detail`")
-        });
+        let lowered = original
+            .lowered_from
+            .as_ref()
+            .map_or(String::new(), |from| {
+                let (v, f) = (from.vertices, from.faces);
+                format!(", simplified from {v} vertices and {f} faces by `detail`")
+            });
         notes.push(format!(
             "model {} of file {}: input vertices from {vertex} to {}, faces from {face} to {}{lowered}",
             model.name,

@@ -90,6 +90,19 @@ impl View {
         all
     }
 
+    /// The same with the models that were simplified as they were before: what pictures are to be compared with.
+    pub fn whole_target(&self) -> TriMesh {
+        let mut all = TriMesh::default();
+        for model in &self.models {
+            let original = model.original.as_ref();
+            match original.and_then(|o| o.lowered_from.as_ref()) {
+                Some(from) => all.append(&from.mesh.transformed(model.matrix)),
+                None => all.append(&model.mesh),
+            }
+        }
+        all
+    }
+
     /// The marks of [`View::target`]'s vertices.
     pub fn marks(&self) -> Marks {
         let parts = self.models.iter();

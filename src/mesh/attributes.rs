@@ -97,8 +97,18 @@ pub struct Original {
     pub attributes: Attributes,
     /// The model's vertex at every vertex of the file; `None` where no face used it. Several may have become one.
     pub vertex_of: Vec<Option<VertexId>>,
-    /// Vertices and faces of the file, where this is a simplified form of it.
-    pub lowered_from: Option<[usize; 2]>,
+    /// What this is a simplified form of, if so.
+    pub lowered_from: Option<LoweredFrom>,
+}
+
+/// A model before it was simplified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoweredFrom {
+    /// How many vertices and faces its file has.
+    pub vertices: usize,
+    pub faces: usize,
+    /// Fit to be looked at, in the file's coordinates.
+    pub mesh: TriMesh,
 }
 
 impl Original {

@@ -20,7 +20,7 @@ mod tri_mesh;
 pub(crate) mod turns;
 pub mod weld;
 
-pub use attributes::{Attributes, NO_UV, Original, Uvs, VertexScalar, picked};
+pub use attributes::{Attributes, LoweredFrom, NO_UV, Original, Uvs, VertexScalar, picked};
 pub use defects::{Defect, DefectKind, check};
 pub use intersect::{face_objects, self_intersections};
 pub use resolve::{Resolved, Resolving, Tangled, resolved};

@@ -5,7 +5,7 @@ use crate::diagram::lettering::{Typeface, width};
 use crate::render::heat::scale;
 use crate::render::inks::{QUIET, TEXT};
 use crate::render::likeness::Likeness;
-use crate::view::View;
+use crate::view::{PlacedModel, View};
 use glam::{DVec2, DVec3};
 
 /// Where captions go, in pixels of the picture; `unit` is a hundredth of a panel's side.
@@ -66,7 +66,18 @@ pub(super) fn captions(
 }
 
 fn of_target(view: &View) -> [String; 2] {
-    let files: Vec<&str> = view.models.iter().map(|m| m.file.as_str()).collect();
+    let file = |m: &PlacedModel| {
+        let lowered = m.original.as_ref().and_then(|o| o.lowered_from.as_ref());
+        match lowered {
+            Some(from) => {
+                let left = m.mesh.faces.len();
+                let all = from.mesh.faces.len();
+                format!("{}; made from {left} of its {all} faces", m.file)
+            }
+            None => m.file.clone(),
+        }
+    };
+    let files: Vec<String> = view.models.iter().map(file).collect();
     [format!("{}: the target", view.name), files.join(", ")]
 }
 

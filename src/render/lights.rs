@@ -46,7 +46,7 @@ pub fn light_pictures(
     forest: &TriMesh,
     forest_bvh: &Bvh,
 ) -> (Vec<LightLikeness>, Vec<u8>) {
-    let target = view.target();
+    let target = view.whole_target();
     let target_bvh = Bvh::new(&target);
     let stage = Stage::new(
         view,

@@ -48,7 +48,7 @@ pub fn view_pictures(
     size_px: u32,
 ) -> (Likeness, ViewPictures) {
     let size = size_px.clamp(16, 2048) as usize;
-    let target = view.target();
+    let target = view.whole_target();
     let target_bvh = Bvh::new(&target);
     let (plane, half) = camera(view);
     let look = |x: f64, y: f64| {

@@ -135,6 +135,82 @@ fn surfaces_that_touch_go_on_touching() {
     assert!(small.vertices.len() < 14);
 }
 
+/// A ball by longitude and latitude with bumps, all of needles.
+fn needles(meridians: u32, parallels: u32) -> TriMesh {
+    let point = |i: u32, j: u32| {
+        let t = std::f64::consts::PI * f64::from(i) / f64::from(parallels);
+        let u = std::f64::consts::TAU * f64::from(j % meridians) / f64::from(meridians);
+        let radius = 20.0 * (1.0 + 0.05 * (9.0 * t).sin() * (7.0 * u).cos());
+        radius * DVec3::new(t.sin() * u.cos(), t.sin() * u.sin(), t.cos())
+    };
+    let mut mesh = TriMesh::default();
+    mesh.vertices.push(point(0, 0));
+    for i in 1..parallels {
+        mesh.vertices.extend((0..meridians).map(|j| point(i, j)));
+    }
+    mesh.vertices.push(point(parallels, 0));
+    let last = mesh.vertices.len() as u32 - 1;
+    let at = |i: u32, j: u32| 1 + (i - 1) * meridians + j % meridians;
+    let mut faces = Vec::new();
+    for j in 0..meridians {
+        faces.push([0, at(1, j), at(1, j + 1)]);
+        faces.push([last, at(parallels - 1, j + 1), at(parallels - 1, j)]);
+        for i in 1..parallels - 1 {
+            faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    TriMesh::new(mesh.vertices, faces)
+}
+
+/// The largest distance of a vertex of the mesh from its smaller form along the ray from the middle of both, millimetres.
+fn farthest(mesh: &TriMesh, small: &TriMesh) -> f64 {
+    let bvh = Bvh::new(small);
+    let off = |v: &DVec3| {
+        let hit = bvh
+            .first_hit(DVec3::ZERO, *v)
+            .expect("it goes around its middle");
+        (hit.t - 1.0).abs() * v.length()
+    };
+    mesh.vertices.iter().step_by(7).map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn needles_go_before_the_form_does() {
+    for (meridians, parallels, most, allowed) in [
+        (2000, 20, 10_000, 0.02),
+        (2000, 20, 3000, 0.05),
+        (20_000, 10, 10_000, 0.02),
+    ] {
+        let full = needles(meridians, parallels);
+        let small = small(&full, most).mesh;
+        let off = farthest(&full, &small);
+        println!(
+            "{meridians} x {parallels} to {}: {off} mm",
+            small.vertices.len()
+        );
+        assert_eq!(small.vertices.len(), most);
+        assert!(
+            off < allowed,
+            "{meridians} x {parallels} to {most}: {off} mm of 40"
+        );
+    }
+}
+
+#[test]
+fn no_form_is_given_up_for_a_number() {
+    let full = needles(200, 60);
+    let small = small(&full, 10).mesh;
+    assert!(small.vertices.len() > 10);
+    let off = farthest(&full, &small);
+    println!("{} vertices, {off} mm off", small.vertices.len());
+    assert!(
+        off < 0.15 * 40.0,
+        "{off} mm with {} vertices",
+        small.vertices.len()
+    );
+}
+
 fn obj(mesh: &TriMesh) -> Vec<u8> {
     let vertices = mesh.vertices.iter().map(|v| {
         let red = if v.z > 0.0 { 1 } else { 0 };
@@ -181,7 +257,7 @@ fn scenes_say_how_many_vertices_models_may_have() {
         assert_eq!(model.matrix, whole.matrix, "placed by the whole model");
         let original = model.original.as_ref().expect("from a file");
         assert_eq!(original.mesh.vertices.len(), count);
-        let lowered = original.lowered_from.map(|n| n[0]);
+        let lowered = original.lowered_from.as_ref().map(|from| from.vertices);
         assert_eq!(lowered, (count < full).then_some(full));
         // Regions and colours follow.
         for (v, point) in original.mesh.vertices.iter().enumerate() {
@@ -191,6 +267,8 @@ fn scenes_say_how_many_vertices_models_may_have() {
             let red = f64::from(u8::from(point.z > 0.0));
             assert_eq!(original.attributes.colours[v], [red, 0.0, 1.0, 1.0]);
         }
+        // What is drawn and measured against is the model as its file has it.
+        assert_eq!(scene.views[0].whole_target(), whole.mesh);
     }
 }
 

@@ -1,7 +1,9 @@
 //! `detail`: models with fewer vertices for quick looks, with all that is said of their vertices.
 
 use crate::index::VertexId;
-use crate::mesh::{Attributes, NO_UV, Original, TriMesh, Uvs, VertexScalar, picked, simplified};
+use crate::mesh::{
+    Attributes, LoweredFrom, NO_UV, Original, TriMesh, Uvs, VertexScalar, picked, simplified,
+};
 use crate::scene::defaults;
 use crate::scene::text::{Field, Reader};
 use crate::view::Marks;
@@ -51,7 +53,11 @@ pub(crate) fn lowered(
             mesh: small.mesh.clone(),
             attributes,
             vertex_of: VertexId::all(kept.len()).map(Some).collect(),
-            lowered_from: Some([own.vertices.len(), own.faces.len()]),
+            lowered_from: Some(LoweredFrom {
+                vertices: own.vertices.len(),
+                faces: own.faces.len(),
+                mesh: mesh.clone(),
+            }),
         },
         marks: Marks {
             weights: picked(&marks.weights, kept),

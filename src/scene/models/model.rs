@@ -5,7 +5,7 @@ use super::marks::{self, MarkedRegion};
 use super::placing::{self, Placing};
 use crate::diag::Diagnostic;
 use crate::intake;
-use crate::mesh::{Original, TriMesh};
+use crate::mesh::{self, Original, TriMesh};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawModel, RawScene};
 use crate::scene::request::ReadFile;
@@ -120,6 +120,13 @@ pub(crate) fn load(reader: &mut Reader, model: &mut Model, read: ReadFile) {
     let warnings = warnings.map(|w| placed(w, &model.file_span));
     reader.problems.extend(warnings);
     let loaded = loaded.value;
+    let flat = model
+        .placing
+        .no_extent(&model.name, &loaded.mesh, &model.span);
+    if let Some(problem) = flat {
+        reader.problems.push(problem);
+        return;
+    }
     let Model { name, file, .. } = &*model;
     let marks = marks::marks(reader, &model.regions, &loaded, name, file);
     model.marks = Arc::new(marks);
@@ -158,7 +165,8 @@ impl Model {
         let (text, help) = if count > most {
             (
                 format!(
-                    "model \"{name}\" keeps {count} vertices, more than `detail: {most}`: with fewer its form would be lost"
+                    "model \"{name}\" keeps {count} vertices, more than `detail: {most}`: with fewer its surface would move by more than {} % of its size, or parts of it would be lost",
+                    100.0 * mesh::simplify::LOST
                 ),
                 "a larger `detail`, or a model of fewer separate parts",
             )

@@ -74,13 +74,43 @@ impl Placing {
     }
 }
 
+/// A side of a model below this share of its longest one is none: it cannot be made any size.
+const FLAT: f64 = 1e-9;
+
+impl Placing {
+    /// An error if the model has no extent along what it is to be fitted by.
+    pub(crate) fn no_extent(&self, name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnostic> {
+        let Placing::Fit(fit) = self else { return None };
+        let (lo, hi) = bounds(mesh, fit.turned())?;
+        let extent = hi - lo;
+        let (side, what) = match fit.size {
+            Size::Height(_) => (extent.z, "height"),
+            Size::Width(_) => (extent.x, "width"),
+            _ => return None,
+        };
+        if side > FLAT * extent.max_element() {
+            return None;
+        }
+        let [wide, deep, high] = extent.to_array().map(short);
+        let message = format!(
+            "model \"{name}\" has no {what} that could be fitted: as it stands it is {wide} wide, {deep} deep and {high} high, in units of its file"
+        );
+        let help = "turn it, as `up: \"y\"`, or fit another side, as `place: Fit(largest: 60)`";
+        Some(error_at(span, message).help(help))
+    }
+}
+
 impl Fit {
-    /// `to_eye` is where the eye is in plan, as a direction.
-    fn matrix(&self, mesh: &TriMesh, unit: f64, to_eye: DVec2) -> DMat4 {
-        // In the upright frame x is the model's left-right, -y its front, z up.
+    /// From the file's axes to those of the upright model (x its left-right, -y its front, z up), with its spin.
+    fn turned(&self) -> DMat3 {
         let upright =
             DMat3::from_cols((-self.front).cross(self.up), -self.front, self.up).transpose();
-        let Some((lo, hi)) = bounds(mesh, DMat3::from_rotation_z(self.spin) * upright) else {
+        DMat3::from_rotation_z(self.spin) * upright
+    }
+
+    /// `to_eye` is where the eye is in plan, as a direction.
+    fn matrix(&self, mesh: &TriMesh, unit: f64, to_eye: DVec2) -> DMat4 {
+        let Some((lo, hi)) = bounds(mesh, self.turned()) else {
             return DMat4::IDENTITY;
         };
         let extent = (hi - lo).max(DVec3::splat(1e-12));
@@ -99,7 +129,7 @@ impl Fit {
         // Turns -y to the eye.
         let facing = DMat3::from_rotation_z(to_eye.perp().to_angle());
         let underside = DVec3::new((lo.x + hi.x) / 2.0, (lo.y + hi.y) / 2.0, lo.z);
-        let turned = facing * DMat3::from_rotation_z(self.spin) * upright;
+        let turned = facing * self.turned();
         DMat4::from_translation(self.at - scale * (facing * underside))
             * DMat4::from_mat3(scale * turned)
     }
