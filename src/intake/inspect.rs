@@ -3,12 +3,12 @@
 //! Nothing is repaired here: the mesh is only rounded to the f32 coordinates of printable files and its equal
 //! vertices are joined, as every slicer does.
 
-use crate::diag::{Diagnostic, Warned};
+use crate::diag::{Diagnostic, Warned, escaped};
 use crate::formats::{MeshFormat, NamedMesh, read_bodies};
 use crate::mesh::defects::{Defect, check};
 use crate::mesh::size::size_doubt;
 use crate::mesh::topology::{Edges, vertex_parts};
-use crate::mesh::weld::{rounded_to_f32, weld};
+use crate::mesh::weld::{drop_unreferenced, rounded_to_f32, weld};
 use crate::mesh::{Attributes, TriMesh};
 use crate::words::gate::doubted;
 use serde::Serialize;
@@ -78,7 +78,7 @@ pub fn inspect(file_name: &str, bytes: &[u8]) -> Result<Warned<Inspection>, Diag
     for body in &bodies {
         all.append(&body.mesh);
     }
-    warnings.extend(size_doubt(&all).map(|doubt| doubted(file_name, doubt)));
+    warnings.extend(size_doubt(&with_faces(&all)).map(|doubt| doubted(file_name, doubt)));
     let reports: Vec<BodyReport> = bodies.into_iter().map(body_report).collect();
     let together = (reports.len() > 1).then(|| {
         body_report(NamedMesh {
@@ -104,7 +104,7 @@ fn body_report(body: NamedMesh) -> BodyReport {
     let mesh = weld(&rounded_to_f32(&body.mesh), 0.0).mesh;
     let defects: Vec<DefectReport> = check(&mesh).iter().map(defect_report).collect();
     let closed = Edges::new(&mesh).iter().all(|e| e.len() % 2 == 0);
-    let (lo, hi) = mesh.bounds().unwrap_or_default();
+    let (lo, hi) = with_faces(&mesh).bounds().unwrap_or_default();
     BodyReport {
         name: body.name,
         triangles: mesh.faces.len(),
@@ -118,6 +118,13 @@ fn body_report(body: NamedMesh) -> BodyReport {
         printable: !defects.iter().any(|d| d.blocks_printing),
         defects,
     }
+}
+
+/// The mesh without vertices that no face uses: how large it is they do not say.
+fn with_faces(mesh: &TriMesh) -> TriMesh {
+    let mut used = mesh.clone();
+    drop_unreferenced(&mut used);
+    used
 }
 
 fn defect_report(defect: &Defect) -> DefectReport {
@@ -144,7 +151,8 @@ impl fmt::Display for Inspection {
         } else {
             format!(", {count} bodies")
         };
-        writeln!(f, "{}: {}{bodies}, {verdict}", self.file, self.format)?;
+        let file = escaped(&self.file);
+        writeln!(f, "{file}: {}{bodies}, {verdict}", self.format)?;
         for body in &self.bodies {
             write!(f, "{body}")?;
         }
@@ -169,7 +177,7 @@ impl fmt::Display for BodyReport {
 impl BodyReport {
     fn figures(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.name.is_empty() {
-            writeln!(f, "  {}", self.name)?;
+            writeln!(f, "  {}", escaped(&self.name))?;
         }
         let [x, y, z] = self.size_mm;
         let parts = if self.parts == 1 { "part" } else { "parts" };

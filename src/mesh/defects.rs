@@ -5,7 +5,7 @@
 //! one fan, no two faces in each other's way, material inside.
 
 use crate::index::{FaceId, VertexId};
-use crate::mesh::intersect::self_intersections;
+use crate::mesh::intersect::some_intersections;
 use crate::mesh::shells::{ClosedSurface, Shell, shells_of};
 use crate::mesh::topology::{Edges, HalfEdge, bowtie_vertices};
 use crate::mesh::tri_mesh::TriMesh;
@@ -101,6 +101,11 @@ impl fmt::Display for Defect {
         use DefectKind::*;
         let (one, many) = match self.kind {
             NoFaces => return f.write_str("no faces"),
+            SelfIntersection if self.count == 0 => {
+                return f.write_str(
+                    "faces that may cut each other: too many in one place to compare all",
+                );
+            }
             InsideOut => return f.write_str("encloses no volume or is inside out"),
             NonFinite => (
                 "vertex that is not a finite point",
@@ -162,6 +167,9 @@ impl fmt::Display for Defect {
 /// Pairs of intersecting faces are counted up to here: a mesh with that many is hopeless, and one with all faces in one
 /// place has quadratically many.
 const MAX_PAIRS: usize = 20_000;
+/// Comparisons of faces in a mesh that has other defects already, for each face and besides: a sound mesh needs some twenty for each,
+/// while thousands of faces on one edge or in one place need the square of their number.
+const COMPARISONS: [u64; 2] = [50, 20_000_000];
 
 /// All defects of a welded mesh, in the order of [`DefectKind`]; empty for a printable one.
 ///
@@ -172,8 +180,15 @@ pub fn check(mesh: &TriMesh) -> Vec<Defect> {
         return fatal;
     }
     let edges = Edges::new(mesh);
-    let pairs = self_intersections(mesh, MAX_PAIRS);
-    found(mesh, &edges, &pairs, || shells_of(mesh, &edges))
+    let intersections = |hopeless: bool| {
+        let [each, besides] = COMPARISONS;
+        let most = match hopeless {
+            true => each * mesh.faces.len() as u64 + besides,
+            false => u64::MAX,
+        };
+        some_intersections(mesh, MAX_PAIRS, most)
+    };
+    found(mesh, &edges, intersections, || shells_of(mesh, &edges))
 }
 
 /// The same of a surface whose faces are known to be in nobody's way.
@@ -183,14 +198,16 @@ pub(crate) fn check_parted(surface: &ClosedSurface) -> Vec<Defect> {
     if !fatal.is_empty() {
         return fatal;
     }
-    found(mesh, &surface.edges, &[], || surface.shells.clone())
+    let none = |_| (Vec::new(), true);
+    found(mesh, &surface.edges, none, || surface.shells.clone())
 }
 
-/// The defects of a mesh that can be read.
+/// The defects of a mesh that can be read. `intersections` is asked for pairs of faces, and whether that are all; it is told whether
+/// the mesh has other defects already.
 fn found(
     mesh: &TriMesh,
     edges: &Edges,
-    pairs: &[[FaceId; 2]],
+    intersections: impl FnOnce(bool) -> (Vec<[FaceId; 2]>, bool),
     shells: impl FnOnce() -> Vec<Shell>,
 ) -> Vec<Defect> {
     let mut defects = face_defects(mesh);
@@ -202,14 +219,14 @@ fn found(
         bowties.len(),
         || mesh.vertices[bowties[0]],
     );
-    push(
-        &mut defects,
-        DefectKind::SelfIntersection,
-        pairs.len(),
-        || meeting_place(mesh, pairs[0]),
-    );
-    if let Some(last) = defects.last_mut().filter(|_| pairs.len() >= MAX_PAIRS) {
-        last.at_least = true;
+    let (pairs, all) = intersections(!defects.is_empty());
+    if !pairs.is_empty() || !all {
+        defects.push(Defect {
+            kind: DefectKind::SelfIntersection,
+            count: pairs.len(),
+            at_least: !all,
+            place: pairs.first().map(|pair| meeting_place(mesh, *pair)),
+        });
     }
     if defects.is_empty() {
         defects.extend(shell_defects(mesh, &shells()));

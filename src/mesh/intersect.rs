@@ -21,6 +21,15 @@ const BLOCK: usize = 1 << 8;
 /// Pairs of face indices `[a, b]`, `a < b`, sorted. Stops soon after `limit` pairs: a result at least that long means
 /// "and perhaps more"; which ones it then holds still depends on the mesh alone.
 pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
+    some_intersections(mesh, limit, u64::MAX).0
+}
+
+/// The same, stopping also soon after so many pairs were compared; gives whether all were.
+pub(crate) fn some_intersections(
+    mesh: &TriMesh,
+    limit: usize,
+    comparisons: u64,
+) -> (Vec<[FaceId; 2]>, bool) {
     let looking = MeetingFaces {
         mesh,
         axis: (0..mesh.faces.len())
@@ -31,17 +40,24 @@ pub fn self_intersections(mesh: &TriMesh, limit: usize) -> Vec<[FaceId; 2]> {
         tree: BoxTree::of_faces(mesh),
         limit,
     };
-    let mut pairs = Vec::new();
+    let (mut pairs, mut compared) = (Vec::new(), 0);
+    let mut all = true;
     for block in looking.tree.leaves().chunks(BLOCK) {
-        let found = block.par_iter().map(|leaf| looking.pairs_of(*leaf));
-        let found: Vec<Vec<[FaceId; 2]>> = found.collect();
-        pairs.extend(found.into_iter().flatten());
-        if pairs.len() >= limit {
+        if compared >= comparisons || pairs.len() >= limit {
+            all = false;
             break;
+        }
+        let found = block.par_iter().map(|leaf| looking.pairs_of(*leaf));
+        let found: Vec<(Vec<[FaceId; 2]>, u64)> = found.collect();
+        for (own, count) in found {
+            pairs.extend(own);
+            compared += count;
         }
     }
     pairs.sort_unstable();
-    pairs
+    // A single leaf may have been left at the limit.
+    let all = all && pairs.len() < limit;
+    (pairs, all)
 }
 
 /// For each face the number of its object: components that share edges, cut or touch each other are one, numbered by their first face.
@@ -71,17 +87,19 @@ struct MeetingFaces<'a> {
 }
 
 impl MeetingFaces<'_> {
-    /// The pairs of a leaf's faces with each other and with those of later leaves.
-    fn pairs_of(&self, leaf: LeafId) -> Vec<[FaceId; 2]> {
+    /// The pairs of a leaf's faces with each other and with those of later leaves, and how many were compared.
+    fn pairs_of(&self, leaf: LeafId) -> (Vec<[FaceId; 2]>, u64) {
         let mut pairs = Vec::new();
+        let mut compared = 0;
         self.tree.meeting(leaf, |[a, b]| {
+            compared += 1;
             let pair = [FaceId(a.0.min(b.0)), FaceId(a.0.max(b.0))];
             if self.meet(pair) {
                 pairs.push(pair);
             }
             pairs.len() < self.limit
         });
-        pairs
+        (pairs, compared)
     }
 
     fn meet(&self, pair: [FaceId; 2]) -> bool {

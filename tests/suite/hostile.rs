@@ -277,12 +277,13 @@ fn cut_files_and_wrong_types() {
     );
     for (name, bytes, words) in [
         ("a.obj", b"".as_slice(), "empty"),
-        ("a.off", b"OFF".as_slice(), "unknown extension"),
+        ("a.xyz", b"0 0 0".as_slice(), "unknown extension"),
+        ("a.off", b"OFF", "cut short"),
         ("a.stl", b"<!DOCTYPE html><html>404</html>", "HTML"),
         (
             "a.stl",
             b"version https://git-lfs.github.com/spec/v1\n",
-            "git lfs pull",
+            "git-lfs pointer",
         ),
         ("a.stl", b"\x89PNG\r\n\x1a\n", "PNG"),
         ("a.obj", b"PK\x03\x04", "zip archive"),
@@ -423,7 +424,7 @@ fn three_mf_attacks() {
     expect("inflate.3mf", &model(&spaces), Class::Error, "zip bomb");
 }
 
-fn zipped(entries: &[(&str, &[u8])]) -> Vec<u8> {
+pub(crate) fn zipped(entries: &[(&str, &[u8])]) -> Vec<u8> {
     use std::io::Write as _;
     let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     for (name, bytes) in entries {
@@ -488,6 +489,150 @@ fn polygons_of_every_shape() {
         Class::Warn,
         "open edges",
     );
+}
+
+#[test]
+fn polygons_with_thousands_of_corners_keep_their_area() {
+    // A gear: every other corner is reflex, 50,000 of them.
+    let corners = 100_000u32;
+    let at = |k: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners)).sin_cos();
+        let radius = if k.is_multiple_of(2) { 20.0 } else { 12.0 };
+        [radius * cos, radius * sin]
+    };
+    let mut text = String::new();
+    for k in 0..corners {
+        let [x, y] = at(k);
+        writeln!(text, "v {x} {y} 0").unwrap();
+    }
+    let list: Vec<String> = (1..=corners).map(|k| k.to_string()).collect();
+    text += &format!("f {}\n", list.join(" "));
+    let turn = std::f64::consts::TAU / f64::from(corners);
+    let area = f64::from(corners) * 20.0 * 12.0 * turn.sin() / 2.0;
+    let mesh = load_model("gear.obj", text.as_bytes(), false)
+        .expect("a model")
+        .value;
+    let ratio = mesh.area() / area;
+    assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
+}
+
+#[test]
+fn names_play_no_tricks_on_a_terminal() {
+    let evil = "a\u{1b}]0;t\u{7}\u{202e}b&#10;all fine: printable";
+    let model = format!(
+        "<model><resources><object id=\"1\" name=\"{evil}\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>\
+         <vertex x=\"9\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"9\" z=\"0\"/></vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/>\
+         </triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>"
+    );
+    let odd = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+    let shown = inspect(
+        "a\u{1b}.3mf",
+        &zipped(&[("3D/3dmodel.model", model.as_bytes())]),
+    )
+    .unwrap();
+    let shown = shown.value.to_string();
+    assert!(!shown.contains(odd), "{shown:?}");
+    assert!(
+        shown.contains(r"a\u{1b}]0;t\u{7}\u{202e}b\u{a}all fine"),
+        "{shown}"
+    );
+    for (name, text) in [
+        ("a.obj", "v 0 0 0\nv 1 0 \u{1b}[2J\u{202e}0\n"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement \u{202e}x\u{1b}[2J many\n",
+        ),
+        ("a.stl", "solid\n\u{1b}]0;t\u{7}\u{202e}\n"),
+        ("a.off", "\u{1b}[2J\u{202e}\n"),
+    ] {
+        let error = inspect(name, text.as_bytes()).unwrap_err();
+        let shown = format!(
+            "{} {}",
+            error.message,
+            match &error.place {
+                Some(Place::Line { excerpt, .. }) => excerpt,
+                _ => "",
+            }
+        );
+        assert!(!shown.contains(odd), "{shown:?}");
+    }
+}
+
+#[test]
+fn vertices_without_faces_say_nothing_of_the_size() {
+    let stray = format!("{}v 1000 0 0\n", cube_obj("0 0 0"));
+    let found = inspect("stray.obj", stray.as_bytes()).unwrap();
+    assert_eq!(found.value.bodies[0].size_mm, [20.0; 3]);
+    assert_eq!(found.value.bodies[0].defects[0].kind, "unreferenced_vertex");
+    let small = stray.replace("20", "0.02");
+    let found = inspect("small.obj", small.as_bytes()).unwrap();
+    let told = &found.warnings[0].message;
+    assert!(
+        told.contains("saved in metres? That would be 20.0 mm"),
+        "{told}"
+    );
+}
+
+#[test]
+fn warnings_show_their_line() {
+    let coloured = cube_obj("0 0 0 nan nan nan");
+    let texture = cube_obj("0 0 0").replace("f 1 3 4", "vt 1 q\nf 1/1 3/1 4/1");
+    let dangling = cube_obj("0 0 0").replace("f 1 3 4", "f 1/7 3/8 4/9");
+    let unknown = format!("{}colour me red\n", cube_obj("0 0 0"));
+    for (text, line) in [
+        (coloured, "v 0 0 0 nan nan nan"),
+        (texture, "vt 1 q"),
+        (dangling, "f 1/7 3/8 4/9"),
+        (unknown, "colour me red"),
+    ] {
+        let read = load_model("a.obj", text.as_bytes(), false).unwrap();
+        match &read.warnings[0].place {
+            Some(Place::Line {
+                line: number,
+                excerpt,
+                ..
+            }) => {
+                assert!(excerpt.starts_with(line), "{excerpt}");
+                assert_eq!(text.lines().nth(number - 1), Some(excerpt.as_str()));
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// Meshes with all faces in one place, which would need the square of their number to be compared.
+#[test]
+fn hopeless_meshes_are_judged_soon() {
+    let count = 60_000u32;
+    // So many faces on one edge, none of which cuts another.
+    let mut book = "v 0 0 0\nv 0 0 10\n".to_owned();
+    for k in 0..count {
+        let (sin, cos) = (f64::from(k) / f64::from(count)).sin_cos();
+        writeln!(book, "v {} {} 5\nf 1 2 {}", 10.0 * cos, 10.0 * sin, k + 3).unwrap();
+    }
+    let mut pile = cube_stl(12);
+    let triangle = pile[84..134].to_vec();
+    pile.truncate(84);
+    pile[80..84].copy_from_slice(&count.to_le_bytes());
+    (0..count).for_each(|_| pile.extend(&triangle));
+    for (name, bytes, kind) in [
+        ("book.obj", book.into_bytes(), "crowded_edge"),
+        ("pile.stl", pile, "duplicate_face"),
+    ] {
+        let start = std::time::Instant::now();
+        let found = inspect(name, &bytes).unwrap().value;
+        let defects = &found.bodies[0].defects;
+        assert!(defects.iter().any(|d| d.kind == kind), "{found}");
+        let cut = defects
+            .iter()
+            .find(|d| d.kind == "self_intersection")
+            .expect("not all compared");
+        assert!(
+            cut.at_least && cut.text.contains("too many in one place"),
+            "{found}"
+        );
+        println!("{name}: {:.1} s", start.elapsed().as_secs_f64());
+    }
 }
 
 /// Sweeps a directory of files with a table of what they are to do, if one is named.
