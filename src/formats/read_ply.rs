@@ -28,7 +28,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<NamedMesh>, Diagno
         file,
         bytes,
         at: header.length,
-        line: header.lines,
+        line: header.lines + 1,
         encoding: header.encoding,
     };
     let mut builder = Builder::default();

@@ -215,6 +215,37 @@ impl Reflex {
         ]
     }
 
+    /// First and last column of a row that a triangle meets, and one more to both sides for what rounding moves.
+    fn columns_in_row(&self, triangle: [DVec2; 3], row: usize) -> Option<[usize; 2]> {
+        let bottom = self.low.y + (row as f64 - 1e-3) * self.cell;
+        let top = bottom + (1.0 + 2e-3) * self.cell;
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for k in 0..3 {
+            let (p, q) = (triangle[k], triangle[(k + 1) % 3]);
+            let (p, q) = if p.y <= q.y { (p, q) } else { (q, p) };
+            if q.y < bottom || p.y > top {
+                continue;
+            }
+            let rise = q.y - p.y;
+            let at = |y: f64| p.x + (q.x - p.x) * ((y - p.y) / rise).clamp(0.0, 1.0);
+            let ends = if rise > 0.0 {
+                [at(bottom), at(top)]
+            } else {
+                [p.x, q.x]
+            };
+            for x in ends {
+                least = least.min(x);
+                most = most.max(x);
+            }
+        }
+        if least > most {
+            return None;
+        }
+        let [x0, _] = self.cell_at(DVec2::new(least, self.low.y));
+        let [x1, _] = self.cell_at(DVec2::new(most, self.low.y));
+        Some([x0.saturating_sub(1), (x1 + 1).min(self.columns - 1)])
+    }
+
     /// Whether a corner with its neighbours is an ear: it turns left, and nothing of the outline lies in it.
     fn leaves_free(&mut self, outline: &Outline, ear: [usize; 3]) -> bool {
         let [a, b, c] = ear;
@@ -222,9 +253,12 @@ impl Reflex {
             return false;
         }
         let flat = ear.map(|k| outline.flat(k));
-        let [x0, y0] = self.cell_at(flat[0].min(flat[1]).min(flat[2]));
-        let [x1, y1] = self.cell_at(flat[0].max(flat[1]).max(flat[2]));
+        let [_, y0] = self.cell_at(flat[0].min(flat[1]).min(flat[2]));
+        let [_, y1] = self.cell_at(flat[0].max(flat[1]).max(flat[2]));
         for y in y0..=y1 {
+            let Some([x0, x1]) = self.columns_in_row(flat, y) else {
+                continue;
+            };
             // The cells of a row follow each other.
             let row = y * self.columns;
             let inside = &self.corners[self.starts[row + x0]..self.starts[row + x1 + 1]];

@@ -487,7 +487,7 @@ fn formulas_say_where_they_are_wrong() {
         let Some(Place::Scene(span)) = &error.place else {
             panic!("{formula}: {:?}", error.place);
         };
-        let whole = format!("\"{formula}\"");
+        let whole = format!("Formula(\"{formula}\")");
         let wanted = if mark.is_empty() { &whole } else { mark };
         assert_eq!(&text[span.clone()], wanted, "{formula}");
     }
