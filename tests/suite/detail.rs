@@ -191,24 +191,12 @@ fn farthest(mesh: &TriMesh, small: &TriMesh) -> f64 {
 
 #[test]
 fn needles_go_before_the_form_does() {
-    for (meridians, parallels, most, allowed) in [
-        (2000, 20, 10_000, 0.02),
-        (2000, 20, 3000, 0.15),
-        (20_000, 10, 10_000, 0.05),
-    ] {
-        let full = needles(meridians, parallels);
-        let small = small(&full, most).mesh;
-        let off = farthest(&full, &small);
-        println!(
-            "{meridians} x {parallels} to {}: {off} mm",
-            small.vertices.len()
-        );
-        assert_eq!(small.vertices.len(), most);
-        assert!(
-            off < allowed,
-            "{meridians} x {parallels} to {most}: {off} mm of 40"
-        );
-    }
+    let full = needles(2000, 20);
+    let small = simplified(&full, 3000).expect("surfaces").mesh;
+    assert_eq!(small.vertices.len(), 3000);
+    // A chord over a bump between two of its meridians is about as far off.
+    let off = farthest(&full, &small);
+    assert!(off < 0.15, "{off} mm of 40");
 }
 
 #[test]
