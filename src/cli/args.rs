@@ -138,7 +138,7 @@ pub(super) enum Command {
     },
     /// Check any mesh file for printing: closed, oriented, no self-intersection, one part
     Inspect {
-        /// STL, 3MF, OBJ or PLY files
+        /// STL, 3MF, OBJ, PLY or OFF files
         #[arg(required = true, value_hint = ValueHint::FilePath)]
         files: Vec<PathBuf>,
         /// Print the findings as JSON

@@ -38,8 +38,9 @@ pub(crate) fn remarks(
     certificates: &Certificates,
 ) -> Vec<Diagnostic> {
     let making = of_making(built, certificates).filter(|d| !d.is_error());
-    let views = built.scene.views.iter().zip(&built.shapes).zip(pictures);
-    let of_view = |((view, shape), found): ((&View, &Box<dyn Optimised + '_>), &Pictures)| {
+    let shapes = built.shapes.iter().map(AsRef::as_ref);
+    let views = built.scene.views.iter().zip(shapes).zip(pictures);
+    let of_view = |((view, shape), found): ((&View, &dyn Optimised), &Pictures)| {
         let summary = shape.steps().map(|(_, summary)| *summary);
         let given_up = summary.and_then(|s| words::likeness::tears_given_up(&view.name, &s));
         let mean = found.likeness.mean_deg;

@@ -96,7 +96,7 @@ fn build(
     let printer = printing::printer(reader, &raw.printer);
     let making = printing::making(reader, &raw.make, &printer);
     let seen = reader.within(&raw.seen, "seen", defaults::SEEN_ALLOWED);
-    if Some(drafts.len()) == view_count(raw) {
+    if !drafts.is_empty() && Some(drafts.len()) == view_count(raw) {
         warn_of_unseen(reader, models.as_deref().unwrap_or_default(), &drafts);
     }
     let eyes: Vec<Eye> = drafts.iter().map(Draft::eye).collect();
