@@ -14,8 +14,6 @@ use glam::DVec2;
 
 /// A shell is carved down to this share of the way from its layer's back to the end of its backing.
 const FLOOR: f64 = 0.5;
-/// Facets of a shell whose depths differ by less where they meet are one sheet, millimetres: rounding and merged cells leave less.
-const SHEET_MM: f64 = 0.05;
 
 /// What one view makes of one support.
 pub(crate) struct ReliefOnSupport<'a> {
@@ -114,10 +112,7 @@ impl<'a> ReliefOnSupport<'a> {
                 let Some((n, j)) = n.and_then(|n| Some((n, local(&n)?))) else {
                     continue;
                 };
-                let corners = map.triangle(*c);
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                let apart = |q| self.shell(*c, q, 0.0) - self.shell(n, q, 0.0);
-                if apart(a.midpoint(b)).abs() < SHEET_MM {
+                if self.image.layer_goes_on(&self.slab, *c, k, n) {
                     sets.join(i as u32, j as u32);
                 }
             }

@@ -106,6 +106,9 @@ fn claim(sight: &Sight, view: ViewId, support: SupportId, cells: Vec<CellId>) ->
 /// upright edges of the support that the cell may hold.
 fn reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -> Reach {
     let from_eye = -slab.offset(image.map.plane.eye);
+    if slab.is_shell() {
+        return shell_reach(image, slab, from_eye, cell);
+    }
     let flat = image.field.supports[support]
         .layer
         .filter(|_| !slab.follows_surface());
@@ -118,6 +121,26 @@ fn reach(image: &Image, slab: &Slab, support: SupportId, cell: CellId) -> Reach 
         sight: from_eye + sight,
         far: from_eye + sight.max(slab.backing()),
     }
+}
+
+/// Of a shell, whose backing follows its surface as the layer does. A cell lies in one facet, so its corners are exact.
+fn shell_reach(image: &Image, slab: &Slab, from_eye: f64, cell: CellId) -> Reach {
+    let plane = image.map.plane;
+    let corners = image.map.triangle(cell);
+    let offset = |q: DVec2, depth: f64| from_eye + slab.offset(plane.point(q, depth));
+    let mut reach = Reach {
+        near: f64::INFINITY,
+        sight: 0.0,
+        far: 0.0,
+    };
+    for (k, q) in corners.into_iter().enumerate() {
+        let (near, sight) = image.layer_in(slab, cell, k);
+        let far = slab.shell_backing(image.surface_in(slab, cell, q), 1.0);
+        reach.near = reach.near.min(offset(q, near)).max(0.0);
+        reach.sight = reach.sight.max(offset(q, sight));
+        reach.far = reach.far.max(offset(q, far.max(sight)));
+    }
+    reach
 }
 
 /// Offsets behind the axis plane of the nearest and the farthest point the layer over the surface allows in a cell.

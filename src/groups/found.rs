@@ -10,10 +10,6 @@ use crate::mesh::face_components;
 use crate::support::Slab;
 use crate::viewmap::Image;
 
-/// A layer whose depth differs by more than this on one ray has jumped, millimetres. Facets that meet in an edge differ by the rounding of
-/// image points, a thousandth of it; what jumps by less is thinner than any layer.
-const JUMP_MM: f64 = 0.05;
-
 /// A support that a layer cuts through or leaves too thin, as one eye sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThinSupport {
@@ -89,24 +85,6 @@ pub fn without(groups: &Groups, lost: &[CellId], image: &Image) -> Groups {
 /// Support, part of it, component of the model.
 type Label = (SupportId, u32, ComponentId);
 
-/// Whether the layer of the support in a cell goes on across its side `k` into cell `next`.
-fn goes_on(image: &Image, slab: &Slab, c: CellId, k: usize, next: CellId) -> bool {
-    if !slab.is_shell() {
-        return true;
-    }
-    let (field, map) = (image.field, &image.map);
-    let [a, b] = [k, (k + 1) % 3].map(|i| map.points[map.cells[c].corners[i]]);
-    let direction = map.plane.direction((a + b) / 2.0);
-    let depth = |cell: CellId| {
-        let facet = map.cells[cell].facet?;
-        Some(field.facet_depth(facet, map.plane.eye, direction))
-    };
-    match (depth(c), depth(next)) {
-        (Some(here), Some(there)) => (here - there).abs() * direction.length() < JUMP_MM,
-        _ => true,
-    }
-}
-
 /// Flood fill over equal labels.
 fn regions(
     image: &Image,
@@ -131,7 +109,7 @@ fn regions(
                 let Some(n) = n else { continue };
                 let is_open = of_cell[*n].is_none() && labels[*n] == labels[seed];
                 let slab = slabs[support].as_ref().filter(|_| is_open);
-                if slab.is_some_and(|slab| goes_on(image, slab, c, k, *n)) {
+                if slab.is_some_and(|slab| image.layer_goes_on(slab, c, k, *n)) {
                     of_cell[*n] = Some(id);
                     stack.push(*n);
                 }

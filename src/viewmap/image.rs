@@ -11,6 +11,9 @@ use crate::support::{Hits, Slab};
 use crate::view::View;
 use glam::DVec2;
 
+/// A layer that differs by more than this where two facets meet has jumped, millimetres: rounding and merged cells leave less.
+const JUMP_MM: f64 = 0.05;
+
 /// A view with its models projected, the supports, and the map of what it sees of both.
 pub struct Image<'a> {
     pub view: &'a View,
@@ -85,6 +88,14 @@ impl<'a> Image<'a> {
         slab.on_datum(direction, surface)
             .filter(|_| self.map.cells[cell].outline[k])
             .unwrap_or_else(|| slab.bounds(direction, surface))
+    }
+
+    /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps.
+    pub(crate) fn layer_goes_on(&self, slab: &Slab, cell: CellId, k: usize, next: CellId) -> bool {
+        let corners = self.map.triangle(cell);
+        let middle = corners[k].midpoint(corners[(k + 1) % 3]);
+        let depth = |c: CellId| slab.shell_backing(self.surface_in(slab, c, middle), 0.0);
+        !slab.is_shell() || (depth(cell) - depth(next)).abs() < JUMP_MM
     }
 
     /// Where the ray `q` meets a layer's datum, in the plane that the support is in a cell; and where it leaves the wall behind, if

@@ -119,6 +119,24 @@ fn report(build: &Build) -> serde_json::Value {
     serde_json::from_slice(&file.expect("a report").bytes).expect("JSON")
 }
 
+/// Ridges seen from the left hide a slope each: the image is connected there, the layer is not. No face has to fit into both of its sides.
+#[test]
+fn a_layer_that_jumps_behind_ridges_ends_a_group_there() {
+    let text = "(models: [(name: \"ball\", file: \"ball.obj\", place: Fit(height: 50, at: (0, 0, 15)))],
+        views: [(name: \"left\", eye: (-320, -320, 45), models: [\"ball\"])],
+        supports: [Wave(width: 90, height: 90, thickness: 5, heights: Formula(\"22 * acos(cos(x / 4)) / 3.14159\"), depth: (front: 3))],
+        energy: Normal(steps: Allowed()),
+        output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))";
+    let scene = scene::resolve(text, &read).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let report = report(&built(&scene.value));
+    let view = &report["views"][0];
+    let groups = view["groups"].as_u64();
+    assert!(groups.is_some_and(|n| n >= 2), "{groups:?} groups");
+    assert_eq!(view["certificate"]["coverage"], 1.0);
+    let error = view["normal_error_deg"]["mean"].as_f64();
+    assert!(error.is_some_and(|deg| deg < 6.0), "{error:?} degrees");
+}
+
 /// Two balls before a plate whose outlines lie on it, built with these steps.
 fn two_balls(second: DVec3, steps: &str) -> serde_json::Value {
     let text = format!(
