@@ -3,6 +3,7 @@
 use super::built::Built;
 use super::certificates::Certificates;
 use super::pictures::Pictures;
+use crate::certify::printability::{PrintCheck, PrintFinding};
 use crate::diag::Diagnostic;
 use crate::kinds::{Crossings, Optimised};
 use crate::report::{CertificateReport, OPTIMAL};
@@ -19,11 +20,12 @@ pub(crate) fn failures(built: &Built, certificates: &Certificates) -> Vec<Diagno
     for (view, certificate) in scene.views.iter().zip(&certificates.views) {
         of_view(scene, &view.name, certificate, &mut failures);
     }
-    let parts = built.forest.whole.parts();
-    if parts > scene.making.limits.parts {
+    let comes_apart = |c: &PrintCheck| matches!(c.finding, PrintFinding::Part { count: 1.. });
+    if certificates.print.iter().any(comes_apart) {
+        let parts = built.forest.whole.parts();
         failures.push(
             Diagnostic::error(format!("the forest comes apart into {parts} pieces")).help(format!(
-                "a {carrier} that stands outside the base, or no base at all, leaves pieces loose"
+                "a {carrier} that stands outside the base leaves pieces loose"
             )),
         );
     }

@@ -3,7 +3,7 @@
 use super::shapes::{base, boxes, pillar, prism, ring};
 use glam::{DVec2, DVec3};
 use pillarforest::bvh::Bvh;
-use pillarforest::certify::printability::{PrintCheck, PrintLimits, Printed, printability};
+use pillarforest::certify::printability::{Apart, PrintCheck, PrintLimits, Printed, printability};
 use pillarforest::geom::inscribed;
 use pillarforest::mesh::{Solid, TriMesh};
 use pillarforest::support::{Datum, Support, SupportKind};
@@ -25,6 +25,42 @@ fn checks(mesh: TriMesh, supports: &[Support], bodies: &[(String, DVec3)]) -> Ve
         bodies,
     };
     printability(&printed, &limits())
+}
+
+/// Without a base pillars stand for themselves; what floats does not, however few parts there are.
+#[test]
+fn what_floats_is_loose_even_where_pillars_stand_apart() {
+    let post = |x: f64| (v(x, 0.0, 0.0), v(x + 10.0, 10.0, 30.0));
+    let bridge = (v(9.0, 0.0, 5.0), v(21.0, 10.0, 25.0));
+    let floating = (v(0.0, 30.0, 12.0), v(4.0, 34.0, 16.0));
+    let loose = |bodies: &[(DVec3, DVec3)], apart: Option<Apart>| {
+        let whole = Solid::new(boxes(bodies)).unwrap();
+        let printed = Printed {
+            supports: &[],
+            whole: &whole,
+            bvh: &Bvh::new(whole.mesh()),
+            standing: &[],
+            bodies: &[],
+        };
+        let limits = PrintLimits {
+            apart,
+            ..PrintLimits::NONE
+        };
+        found(&printability(&printed, &limits), "part")
+    };
+    let two = Some(Apart {
+        parts: 2,
+        foot: 0.0,
+    });
+    assert!(loose(&[post(0.0), post(20.0)], two).ok);
+    let third = loose(&[post(0.0), post(20.0), floating], two);
+    assert!(!third.ok && third.place[2] == 14.0, "{third:?}");
+    // As many parts as pillars, but one of them is none.
+    let joined = loose(&[post(0.0), bridge, post(20.0), floating], two);
+    assert!(!joined.ok && joined.place[2] == 14.0, "{joined:?}");
+    let three = [post(0.0), post(20.0), post(40.0)];
+    assert!(!loose(&three, two).ok, "more than there are supports");
+    assert!(!loose(&[post(0.0), post(20.0)], None).ok);
 }
 
 fn found(checks: &[PrintCheck], name: &str) -> PrintCheck {

@@ -97,8 +97,17 @@ pub struct PrintLimits {
     pub slimmest: Option<f64>,
     /// Width, depth and height of what holds the work, millimetres.
     pub bed: Option<[f64; 3]>,
-    /// How many parts there are on purpose.
+    /// Without a base: what stands for itself. `None`: all is one part.
+    pub apart: Option<Apart>,
+}
+
+/// Parts that stand each for themselves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// The most of them.
     pub parts: usize,
+    /// How high the highest of their feet lies, millimetres: what ends above floats.
+    pub foot: f64,
 }
 
 /// Walls wanted by a printer, in nozzles: two printed lines that overlap; and what is not printed at all (0.65 mm at 0.4 mm, by trial).
@@ -124,7 +133,7 @@ impl PrintLimits {
             }),
             slimmest: Some(slimmest),
             bed: Some(bed),
-            parts: 1,
+            apart: None,
         }
     }
 
@@ -149,7 +158,7 @@ impl PrintLimits {
         overhang: None,
         slimmest: None,
         bed: None,
-        parts: 1,
+        apart: None,
     };
 }
 

@@ -31,7 +31,8 @@ mod slenderness;
 mod walls;
 
 pub use check::{
-    GAP_NOZZLES, LostWalls, Margin, PrintCheck, PrintFinding, PrintLimits, Printed, WALL_NOZZLES,
+    Apart, GAP_NOZZLES, LostWalls, Margin, PrintCheck, PrintFinding, PrintLimits, Printed,
+    WALL_NOZZLES,
 };
 pub use overhang::STEEP_DEG;
 
@@ -54,7 +55,7 @@ pub fn printability(printed: &Printed, limits: &PrintLimits) -> Vec<PrintCheck> 
     let slimmest = limits.slimmest;
     checks.extend(slimmest.and_then(|most| slenderness::slenderness(printed.supports, most)));
     checks.extend(limits.bed.map(|room| bed::bed(printed, room)));
-    checks.extend(loose::loose(printed.whole, limits.parts));
+    checks.extend(loose::loose(printed.whole, limits.apart));
     checks.extend(core);
     checks
 }

@@ -1,6 +1,6 @@
 //! The printer, how the forest is made, and which files are written.
 
-use crate::certify::printability::PrintLimits;
+use crate::certify::printability::{Apart, PrintLimits};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawMake, RawOutput, RawPrinter};
 use crate::scene::resolved::{Making, MakingWay, Output, Printer};
@@ -85,7 +85,11 @@ impl Making {
     pub(crate) fn of(mut self, supports: &[Support]) -> Self {
         let has_base = |s: &Support| matches!(s.kind, SupportKind::Base { .. });
         if !supports.iter().any(has_base) {
-            self.limits.parts = supports.len();
+            let feet = supports.iter().filter_map(|s| s.mesh.bounds());
+            self.limits.apart = Some(Apart {
+                parts: supports.len(),
+                foot: feet.map(|(lo, _)| lo.z).fold(f64::NEG_INFINITY, f64::max),
+            });
         }
         self
     }
