@@ -32,6 +32,7 @@
 //! | views and what is wanted of a layout | [`planner::plan`], [`planner::repair`] | [`planner::Planned`], or [`planner::NoLayout`]: what binds |
 //! | forest, reliefs and views | [`certify`] | certificates: coverage, conflicts, layers and order, eye tolerance, camouflage, printability |
 //! | a mesh file's bytes | [`intake::load_original`], [`intake::inspect()`] | a model fit to be worked with, with all that its file says; or what is wrong with it for printing |
+//! | a model | [`render::six_sides()`] | its six sides, for whoever does not know which of them is the front |
 //! | what stages found | [`words`] | [`diag::Diagnostic`]s for people |
 //! | forest and views | [`render::view_pictures`], [`render::light_pictures`], [`render::turntable()`], [`diagram::plan`], [`formats`], [`report`] | bytes of files |
 //! | scenes after the paper's figures | [`figures::make`] | [`figures::Done`]: measurements and claims beside what the paper says |
@@ -56,7 +57,8 @@
 //! | target | the models of a view as one mesh, projected |
 //! | view map | the image of an eye, triangulated into *cells*, each of one model face on one support |
 //! | facet | a face of the supports' mesh, in contrast to one of the model |
-//! | group | a connected part of the image on one support, with a scale `mu` of its own |
+//! | group | a connected part of the image on one support, as far as its layer goes on without a jump, with a scale `mu` of its own |
+//! | object | what of a model hangs together, cuts or touches itself: it has one outline |
 //! | anchor | a point of a face as a mix of its vertices |
 //! | bound | how near and how far an anchor may lie, before `mu` is applied |
 //! | drawn | of a bound or outline: made to lie on the support itself |

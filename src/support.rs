@@ -3,6 +3,7 @@
 //! A support is a closed solid with a name and, if it may carry reliefs, a depth layer. Everything downstream
 //! (visibility, groups, solids) asks only for its mesh and for its layer along a ray.
 
+use crate::geom::narrowest;
 use crate::index::FaceId;
 use crate::mesh::TriMesh;
 use glam::{DVec2, DVec3};
@@ -154,6 +155,15 @@ pub struct Support {
     pub layer: Option<Layer>,
     /// Closed, outward oriented.
     pub mesh: TriMesh,
+}
+
+/// The least width of a pillar, millimetres; a round one is as wide as the circle that its outline stands for.
+pub fn pillar_width(axis: DVec2, profile: &[DVec2], round: bool) -> f64 {
+    let across = |p: &DVec2| 2.0 * p.distance(axis);
+    match round {
+        true => profile.iter().map(across).fold(0.0, f64::max),
+        false => narrowest(profile),
+    }
 }
 
 impl Support {

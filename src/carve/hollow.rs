@@ -95,8 +95,8 @@ fn frustum(
     })
 }
 
-/// The part of the image that is carved, millimetres at the support: narrower than the relief where its support goes on beside it, wider where it ends or is
-/// hidden. A shell is carved to different depths; what of it is hidden stays.
+/// The part of the image that is carved, millimetres at the support: narrower than the relief where its support goes on beside it, wider
+/// where it ends or is hidden. A shell is carved to different depths; what of it is hidden stays.
 fn shape(
     map: &ViewMap,
     slab: &Slab,

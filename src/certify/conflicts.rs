@@ -86,7 +86,7 @@ pub struct Finished<'a> {
     whole: &'a Bvh,
     reliefs: Vec<Option<Bvh>>,
     names: Vec<&'a str>,
-    making: Sharpness,
+    sharpness: Sharpness,
 }
 
 /// What is too fine to be made, and what is too fine to be seen.
@@ -105,7 +105,7 @@ impl<'a> Finished<'a> {
         whole: &'a Bvh,
         field: &'a SupportField<'a>,
         names: Vec<&'a str>,
-        making: Sharpness,
+        sharpness: Sharpness,
     ) -> Self {
         let of_view = |s: &Option<crate::mesh::Solid>| s.as_ref().map(|s| Bvh::new(s.mesh()));
         Self {
@@ -113,7 +113,7 @@ impl<'a> Finished<'a> {
             whole,
             reliefs: forest.reliefs.par_iter().map(of_view).collect(),
             names,
-            making,
+            sharpness,
         }
     }
 }
@@ -134,7 +134,8 @@ struct Miss {
 /// view's index.
 ///
 /// Edges of reliefs are bedded in their supports and lapped behind others, and no printer makes a sliver thinner than its line: a ray
-/// that meets the relief if moved sideways by up to half a line of [`Sharpness`] is not disturbed. What is disturbed nowhere as wide as an eye resolves is summed and not listed.
+/// that meets the relief if moved sideways by up to half a line of [`Sharpness`] is not disturbed. What is disturbed nowhere as wide as
+/// an eye resolves is summed and not listed.
 pub fn sighted(
     sight: &Sight,
     own: ViewId,
@@ -185,7 +186,7 @@ fn gathered(misses: &[Miss], sight: &Sight, finished: &Finished) -> Sighted {
         let arcmin2 = group.iter().map(|m| m.sr).sum::<f64>() * SQUARE_ARCMIN;
         let mut cells: Vec<CellId> = group.iter().map(|m| m.cell).collect();
         cells.dedup();
-        if !is_as_wide_as(&sight.image.map, &cells, finished.making.seen) {
+        if !is_as_wide_as(&sight.image.map, &cells, finished.sharpness.seen) {
             hairs += arcmin2;
             continue;
         }
@@ -322,7 +323,7 @@ impl SampledCell {
         let ways = (0..AROUND).flat_map(|k| SHARES.map(|share| (k, share)));
         ways.into_iter().any(|(k, share)| {
             let turn = std::f64::consts::TAU * k as f64 / AROUND as f64;
-            let beside = q + DVec2::from_angle(turn) * share * finished.making.line
+            let beside = q + DVec2::from_angle(turn) * share * finished.sharpness.line
                 / 2.0
                 / plane.scale(wanted);
             let direction = plane.direction(beside);

@@ -198,6 +198,9 @@ fn regions(sight: &Sight, why: &[Option<Why>]) -> Vec<(Why, Vec<CellId>)> {
 
 /// Whether a region of cells is anywhere as wide as `seen` arc-minutes: whether a disc of that width fits in.
 pub(super) fn is_as_wide_as(map: &ViewMap, cells: &[CellId], seen: f64) -> bool {
+    if seen <= 0.0 {
+        return true;
+    }
     // Across the way outwards, an angle takes as much more of the image's plane as the ray is longer than the forward axis.
     let ray = map
         .plane
@@ -206,7 +209,7 @@ pub(super) fn is_as_wide_as(map: &ViewMap, cells: &[CellId], seen: f64) -> bool 
     let mut rising = cells.to_vec();
     rising.sort_unstable();
     let rings = map.outlines(&rising, 1.0 / per_arcmin);
-    seen <= 0.0 || !offset(&rings, -seen / 2.0).is_empty()
+    !offset(&rings, -seen / 2.0).is_empty()
 }
 
 /// Why nothing carries the model in a cell, judged at its centre.

@@ -107,8 +107,10 @@ fn regions(
             cells.push(c);
             for (k, n) in map.neighbours[c].iter().enumerate() {
                 let Some(n) = n else { continue };
-                let is_open = of_cell[*n].is_none() && labels[*n] == labels[seed];
-                let slab = slabs[support].as_ref().filter(|_| is_open);
+                if of_cell[*n].is_some() || labels[*n] != labels[seed] {
+                    continue;
+                }
+                let slab = slabs[support].as_ref();
                 if slab.is_some_and(|slab| image.layer_goes_on(slab, c, k, *n)) {
                     of_cell[*n] = Some(id);
                     stack.push(*n);

@@ -4,8 +4,8 @@
 //! 1997, planes weighted by area), each vertex into a neighbour. Promises: every vertex left is one of the mesh's own, where it
 //! was; borders stay borders, and only their own points are left on them; a 2-manifold stays one, with its parts and handles;
 //! the same mesh gives the same result. Vertices at which surfaces touch stay, and so do those whose going would move the surface by
-//! more than [`LOST`]. Does not promise the number for these reasons (nor does a closed part get smaller than a tetrahedron), nor that nothing intersects: no face turns by more than [`TURN`], which has been enough on all
-//! models tried.
+//! more than [`LOST`]. Does not promise the number for these reasons (nor does a closed part get smaller than a tetrahedron), nor that
+//! nothing intersects: no face turns by more than [`TURN`], which has been enough on all models tried.
 
 use crate::geom::area_vector;
 use crate::index::VertexId;

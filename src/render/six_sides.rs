@@ -95,8 +95,7 @@ pub fn six_sides(name: &str, mesh: &TriMesh, up: &str) -> Vec<u8> {
         raster::put_square(&mut pixmap, corner, SIDE, pixels.into_iter());
         let words = format!("up: \"{}\", front: \"{}\"", side.up.0, side.front.0);
         let at = DVec2::new((corner.0 + SIDE / 2) as f64, (corner.1 + SIDE + 18) as f64);
-        let style = TextStyle::new(14.0, Typeface::Regular, TEXT, Align::Middle);
-        drawing.text(at, &words, style);
+        drawing.text(at, &words, style(14.0, Typeface::Regular, TEXT));
     }
     drawing.paint(&mut pixmap, 1.0);
     raster::encode(&pixmap)
@@ -119,16 +118,8 @@ fn picture(mesh: &TriMesh, bvh: &Bvh, (lo, hi): (DVec3, DVec3), side: &Aspect) -
     let cast = |x: f64, y: f64| {
         let [right, down] = [x, y].map(|p| (p - SIDE as f64 / 2.0) * pixel);
         let from = plane.eye + right * plane.right - down * plane.up;
-        let shade = |face| {
-            let normal = mesh.normal(face);
-            // A face that is turned the wrong way round is still to be recognised.
-            let towards = if normal.dot(forward) > 0.0 {
-                -normal
-            } else {
-                normal
-            };
-            lights.shade(towards, shading::PLASTER)
-        };
+        // A face that is turned the wrong way round is still to be recognised.
+        let shade = |face| lights.shade(mesh.normal_against(face, forward), shading::PLASTER);
         let hit = bvh.first_hit(from, forward);
         [hit.map_or(shading::BACKGROUND, |h| shade(h.face))]
     };

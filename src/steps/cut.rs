@@ -49,14 +49,14 @@ indices! {
 }
 
 /// Cuts where the field's corners stand at least `least_mm` apart; corners share a vertex where they are nearer, higher than
-/// allowed, in the wrong order, or `closed`, so that the program has a solution to begin with. Gives
-/// the cut target with the view map that refers to it.
+/// allowed, in the wrong order, or `closed`, so that the program has a solution to begin with. Gives the cut target with the view map that
+/// refers to it.
 pub(crate) fn cut(
     image: &Image,
     patches: &Patches,
     field: &PatchDepths,
     least_mm: f64,
-    closed: &[[Corner; 2]],
+    closed: &[(Corner, Corner)],
 ) -> (Target, ViewMap, Cut) {
     let Image { target, map, .. } = image;
     let pairs = corner_pairs(target, patches);
@@ -67,7 +67,7 @@ pub(crate) fn cut(
             && far - near <= highest(patches, a, b)
     };
     let mut bundles = Bundles::new(field);
-    for [a, b] in closed {
+    for (a, b) in closed {
         bundles.put_together(index(*a), index(*b));
     }
     bundles.join(&pairs, printable);
@@ -110,7 +110,7 @@ pub(crate) fn lowest_mm(steps: &[Step], target: &Target, depths: &Depths) -> Opt
 
 impl Cut {
     /// The corners that the steps with these numbers part.
-    pub(crate) fn parted_by(&self, steps: &[usize]) -> Vec<[Corner; 2]> {
+    pub(crate) fn parted_by(&self, steps: &[usize]) -> Vec<(Corner, Corner)> {
         let of = |(p, k): Corner| self.corners[p][usize::from(k)];
         let mut ends: Vec<[VertexId; 2]> = steps
             .iter()
@@ -119,8 +119,7 @@ impl Cut {
             .collect();
         ends.sort_unstable();
         let parted = |(a, b): &&(Corner, Corner)| ends.binary_search(&[of(*a), of(*b)]).is_ok();
-        let pairs = self.pairs.iter().filter(parted);
-        pairs.map(|(a, b)| [*a, *b]).collect()
+        self.pairs.iter().filter(parted).copied().collect()
     }
 
     /// What the program must know of the cut. Pieces that are free are pulled together or apart along tears and outlines.

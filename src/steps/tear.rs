@@ -4,14 +4,14 @@
 //! of all the points around decide that, so the solver is asked: its proof that there are no depths names the steps in contradiction with
 //! the bounds. Those are closed, and it is asked again. Every round closes at least one of finitely many steps.
 
-use super::cut::{cut, lowest_mm};
+use super::cut::{Cut, cut, lowest_mm};
 use super::fusion::{Functional, PatchDepths, Prices, pressed};
 use super::lines::{self, StepLine, StepSummary, lines};
 use super::options::StepOptions;
 use super::patches::{Patch, Patches};
 use super::thin;
 use crate::index::{FaceId, VertexId};
-use crate::mimic::{Depths, NormalOptions, RowKind, SolveError, opened_depths};
+use crate::mimic::{Depths, NormalOptions, Opening, RowKind, SolveError, opened_depths};
 use crate::sight::Sight;
 use crate::viewmap::Image;
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ pub fn torn<'a>(
     let patches = Patches::new(&steps.limits, sight);
     let mut price = steps.price;
     let (mut rounds, mut given_up) = (0, 0);
-    'dearer: loop {
+    loop {
         let (y, absorbed) = tear(steps, options, price, image, &patches);
         let last = rounds == PRICE_ROUNDS;
         rounds += 1;
@@ -55,32 +55,19 @@ pub fn torn<'a>(
         if too_many(lines::count(&image.target, &patches, &y)) {
             continue;
         }
-        let mut closed = Vec::new();
-        let (cut, opening, torn, depths) = loop {
-            let (target, map, cut) = cut(image, &patches, &y, steps.limits.least_mm, &closed);
-            let opening = cut.opening(&patches, steps, &absorbed);
-            let orders = if options.ordering {
-                &cut.orders[..]
-            } else {
-                &[]
-            };
-            let torn = sight.cut(target, map);
-            match opened_depths(options, &torn, orders, &opening) {
-                Ok(depths) => break (cut, opening, torn, depths),
-                Err(SolveError::Infeasible(rows)) => {
-                    let without_room = cut.parted_by(&steps_among(&rows));
-                    if !without_room.is_empty() {
-                        closed.extend(without_room);
-                    } else if last {
-                        return Err(SolveError::Infeasible(rows));
-                    } else {
-                        // Limits that contradict each other: with fewer tears there are fewer of them.
-                        given_up += 1;
-                        continue 'dearer;
-                    }
-                }
-                Err(other) => return Err(other),
+        let OpenedCut {
+            cut,
+            opening,
+            torn,
+            depths,
+        } = match opened(steps, options, sight, &patches, &y, &absorbed) {
+            Ok(opened) => opened,
+            Err(SolveError::Infeasible(_)) if !last => {
+                // Limits that contradict each other: with fewer tears there are fewer of them.
+                given_up += 1;
+                continue;
             }
+            Err(error) => return Err(error),
         };
         let given_away = patches.patches.iter().zip(&absorbed).filter(|(_, a)| **a);
         let absorbed_mm2 = given_away.map(|(p, _)| p.seen_mm2).sum();
@@ -103,6 +90,57 @@ pub fn torn<'a>(
             sight: torn,
             depths,
         });
+    }
+}
+
+/// A surface cut along its tears, with its depths.
+struct OpenedCut<'a> {
+    cut: Cut,
+    opening: Opening,
+    torn: Sight<'a>,
+    depths: Depths,
+}
+
+/// Cuts the surface along the tears of a field and finds its depths; steps that contradict the bounds are closed first.
+///
+/// # Errors
+/// As [`depths`](crate::mimic::depths), if no step is among what contradicts.
+fn opened<'a>(
+    steps: &StepOptions,
+    options: NormalOptions,
+    sight: &Sight<'a>,
+    patches: &Patches,
+    field: &PatchDepths,
+    absorbed: &[bool],
+) -> Result<OpenedCut<'a>, SolveError> {
+    let mut closed = Vec::new();
+    loop {
+        let (target, map, cut) = cut(&sight.image, patches, field, steps.limits.least_mm, &closed);
+        let opening = cut.opening(patches, steps, absorbed);
+        let orders = if options.ordering {
+            &cut.orders[..]
+        } else {
+            &[]
+        };
+        let torn = sight.cut(target, map);
+        match opened_depths(options, &torn, orders, &opening) {
+            Ok(depths) => {
+                return Ok(OpenedCut {
+                    cut,
+                    opening,
+                    torn,
+                    depths,
+                });
+            }
+            Err(SolveError::Infeasible(rows)) => {
+                let without_room = cut.parted_by(&steps_among(&rows));
+                if without_room.is_empty() {
+                    return Err(SolveError::Infeasible(rows));
+                }
+                closed.extend(without_room);
+            }
+            Err(other) => return Err(other),
+        }
     }
 }
 

@@ -2,9 +2,7 @@
 
 use super::check::{PrintCheck, PrintFinding};
 use crate::certify::point::without_minus_zero;
-use crate::geom::narrowest;
-use crate::support::{Support, SupportKind};
-use glam::DVec2;
+use crate::support::{Support, SupportKind, pillar_width};
 
 /// The pillar whose least width is the smallest share of what its height wants.
 pub(crate) fn slenderness(supports: &[Support], slimmest: f64) -> Option<PrintCheck> {
@@ -16,13 +14,7 @@ pub(crate) fn slenderness(supports: &[Support], slimmest: f64) -> Option<PrintCh
             round,
             ..
         } => {
-            // A round pillar is as wide as the circle that its outline stands for.
-            let across = |p: &DVec2| 2.0 * p.distance(*axis);
-            let width = match round {
-                true => profile.iter().map(across).fold(0.0, f64::max),
-                false => narrowest(profile),
-            };
-            let height = top.max(0.0);
+            let (width, height) = (pillar_width(*axis, profile, *round), top.max(0.0));
             Some((s, axis.extend(height), width, height / slimmest))
         }
         SupportKind::Base { .. } | SupportKind::Body { .. } => None,

@@ -5,6 +5,7 @@ use crate::scene::defaults;
 use crate::scene::resolved::Making;
 use crate::scene::supports::{Standing, shapes};
 use crate::scene::text::{Reader, error_at, short, warning_at};
+use crate::support::pillar_width;
 use std::collections::BTreeMap;
 
 /// Overlapping pillars are errors, gaps that do not stay open warnings: the first of each pair of places in the text.
@@ -172,10 +173,7 @@ pub(crate) fn slimness(reader: &mut Reader, pillars: &[Standing], making: &Makin
     let thin = making.limits.wall.map_or(0.0, |w| w.wanted);
     let mut seen = std::collections::BTreeSet::new();
     for pillar in pillars {
-        let width = match pillar.round {
-            true => 2.0 * pillar.reach,
-            false => shapes::narrowest(&pillar.profile),
-        };
+        let width = pillar_width(pillar.axis, &pillar.profile, pillar.round);
         if width < thin && seen.insert((pillar.span.start, 0)) {
             reader.problems.push(
                 warning_at(
