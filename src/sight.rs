@@ -7,7 +7,12 @@ use crate::groups::{Groups, ThinSupport, groups, with_bounds, without};
 use crate::index::{CellId, FaceId, SupportId, ViewId};
 use crate::view::View;
 use crate::viewmap::{Image, SupportField, Target, ViewMap, ViewMapError};
+use glam::{DVec2, DVec3};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
+
+/// Rays this far, radians, from the way to a support meet its layer thousands of times as far away as it is, or never: 89.99 degrees.
+const FARTHEST_BESIDE: f64 = FRAC_PI_2 - 2e-4;
 
 /// A cell that its view loses to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,20 +38,42 @@ pub enum Unseen {
     Image(ViewMapError),
     /// Its layers would leave too little of these supports.
     Thin(Vec<ThinSupport>),
-    /// No support stands behind or in its models.
-    NotCarried,
+    /// No support stands behind or in its models: where those that could carry something are instead.
+    NotCarried(Vec<(SupportId, Elsewhere)>),
+    /// A face that the support carries has a corner at this angle, radians, from the way to the support, whose layer no ray meets
+    /// so far beside it.
+    Beside(SupportId, f64),
+    /// Nothing that is seen has bounds.
+    Free,
+}
+
+/// Why a support carries nothing for an eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Elsewhere {
+    /// It stands behind the eye.
+    BehindEye,
+    /// Its face looks away from the eye; unit, in plan: where it would look at it.
+    FacesAway(DVec2),
+    /// It stands beside the models, or before them.
+    BesideModels,
 }
 
 impl<'a> Sight<'a> {
     /// Projects, maps and groups one view.
     ///
     /// # Errors
-    /// If the models do not lie before the eye, nothing of them is seen, or no support carries them.
+    /// If the models do not lie before the eye, nothing of them is seen, no support carries them, or nothing holds them.
     pub fn new(view: &'a View, field: &'a SupportField<'a>) -> Result<Self, Unseen> {
         let image = Image::new(view, field).map_err(Unseen::Image)?;
         let groups = groups(&image).map_err(Unseen::Thin)?;
         if groups.groups.is_empty() {
-            return Err(Unseen::NotCarried);
+            return Err(Unseen::NotCarried(aside(&image, &groups)));
+        }
+        if let Some((support, angle)) = beside(&image, &groups) {
+            return Err(Unseen::Beside(support, angle));
+        }
+        if groups.bounds.is_empty() {
+            return Err(Unseen::Free);
         }
         Ok(Self {
             image,
@@ -91,4 +118,38 @@ impl<'a> Sight<'a> {
             lost: self.lost.clone(),
         }
     }
+}
+
+/// The corner of a carried face that is farthest beside its support, as long as that is too far.
+fn beside(image: &Image, groups: &Groups) -> Option<(SupportId, f64)> {
+    let mut worst: Option<(SupportId, f64)> = None;
+    for carried in groups.carried(&image.map) {
+        let support = groups.groups[carried.group].support;
+        for q in image.target.image_of(carried.face) {
+            let angle = carried.slab.angle_to(image.map.plane.direction(q));
+            if angle >= FARTHEST_BESIDE && worst.is_none_or(|(_, w)| angle > w) {
+                worst = Some((support, angle));
+            }
+        }
+    }
+    worst
+}
+
+/// Where supports are that carry nothing.
+fn aside(image: &Image, groups: &Groups) -> Vec<(SupportId, Elsewhere)> {
+    let plane = &image.map.plane;
+    let why = |id: SupportId| {
+        let support = &image.field.supports[id];
+        support.layer?;
+        let vertices = &support.mesh.vertices;
+        let middle = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
+        let to_eye = (plane.eye - middle).truncate().normalize_or_zero();
+        Some(match groups.slabs[id] {
+            _ if vertices.iter().all(|v| plane.depth(*v) <= 0.0) => Elsewhere::BehindEye,
+            None if support.is_body() => Elsewhere::FacesAway(to_eye),
+            _ => Elsewhere::BesideModels,
+        })
+    };
+    let all = (0..image.field.supports.len()).map(SupportId::new);
+    all.filter_map(|id| Some((id, why(id)?))).collect()
 }

@@ -280,6 +280,11 @@ impl Slab {
         }
     }
 
+    /// Angle between a ray and the way to the support (square to the datum plane, if there is one), radians.
+    pub fn angle_to(&self, direction: DVec3) -> f64 {
+        direction.angle_between(self.towards)
+    }
+
     /// Whether the bounds depend on where a ray meets the support.
     pub fn follows_surface(&self) -> bool {
         self.layer.datum() == Datum::Surface

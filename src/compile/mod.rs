@@ -36,7 +36,7 @@ use headline::{counts, headline};
 use laid::{laid, laid_at_first};
 use page::page;
 use pictures::{drawn, picture_files, turntable_file};
-use sight::unsettled;
+use sight::{unheld, unsettled};
 use split::divided;
 use stages::{built, missing, seen};
 use summary::report;
@@ -59,7 +59,8 @@ pub fn build(scene: &Scene, progress: Progress, stop: Stop) -> Result<Build, Vec
     let certificates = certificates(&built, &settled, &divided.bodies);
     progress("files", 0.9);
     let failures = failures(&built, &certificates);
-    let mut warnings = unsettled(built.sights, &built.shapes);
+    let mut warnings = unheld(&sights, scene);
+    warnings.extend(unsettled(built.sights, &built.shapes));
     warnings.extend(divided.warnings);
     warnings.extend(remarks(&built, &pictures, &certificates));
     let mut files = forest_files(&built, divided.files, &certificates);
@@ -105,6 +106,7 @@ pub fn pictures(scene: &Scene, progress: Progress, stop: Stop) -> Result<Drawn, 
     let field = SupportField::new(&scene.supports);
     let (sights, _) = seen(scene, &field, progress)?;
     let mut warnings = missing(scene, &sights);
+    warnings.extend(unheld(&sights, scene));
     let built = built(scene, &field, &sights, progress)?;
     warnings.extend(unsettled(built.sights, &built.shapes));
     warnings.extend(laid.warning());
@@ -135,6 +137,7 @@ pub fn check(
     let field = SupportField::new(&scene.supports);
     let (sights, _) = seen(scene, &field, progress)?;
     let mut warnings = missing(scene, &sights);
+    warnings.extend(unheld(&sights, scene));
     warnings.extend(laid.warning());
     Ok(warnings)
 }

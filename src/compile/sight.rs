@@ -2,7 +2,7 @@
 
 use crate::certify::coverage::{Coverage, coverage};
 use crate::diag::Diagnostic;
-use crate::index::CellId;
+use crate::index::{CellId, SupportId};
 use crate::kinds::Optimised;
 use crate::scene::Scene;
 use crate::sight::{Loss, Sight};
@@ -54,6 +54,21 @@ pub(crate) fn optimise<'a>(
 ) -> Result<Box<dyn Optimised + 'a>, Vec<Diagnostic>> {
     let found = scene.relief.optimised(sight);
     found.map_err(|e| vec![words::sight::unsolved(sight, &e)])
+}
+
+/// Warnings of free parts that an eye sees before a support by themselves, so that nothing holds them to it.
+pub(crate) fn unheld(sights: &[Sight], scene: &Scene) -> Vec<Diagnostic> {
+    let least = (scene.seen_arcmin / 60.0).to_radians().powi(2);
+    let warning = |sight: &Sight| {
+        let groups = sight.groups.unheld();
+        let groups = groups.iter().map(|g| &sight.groups.groups[*g]);
+        let wide = groups.filter(|g| g.solid_angle_sr > least);
+        let mut on: Vec<SupportId> = wide.map(|g| g.support).collect();
+        on.sort_unstable();
+        on.dedup();
+        (!on.is_empty()).then(|| words::sight::unheld(sight, &on))
+    };
+    sights.iter().filter_map(warning).collect()
 }
 
 /// Warnings of iterations that did not converge.

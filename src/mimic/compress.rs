@@ -173,8 +173,10 @@ impl<'a> Layers<'a> {
         let solution = solve(&program)?;
         let inverse = |u: &f64| 1.0 + self.unit * u;
         if solution.u[..n].iter().any(|u| inverse(u) <= 0.0) {
-            let reason = "the middle of the layers passes through the eye";
-            return Err(SolveError::Unsolved(reason.into()));
+            return Err(SolveError::Unsolved {
+                reason: "the middle of the layers passes through the eye".into(),
+                worst: None,
+            });
         }
         let depths = solution.u[..n].iter().map(|u| 1.0 / inverse(u));
         Ok((depths.collect(), solution.solved))

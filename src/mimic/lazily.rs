@@ -67,7 +67,7 @@ pub(crate) fn solve_lazily(
         match solver.solve_again(program, &solution, old) {
             Ok(better) => solution = better,
             // What the last solution breaks is counted below.
-            Err(SolveError::Unsolved(_)) => {
+            Err(SolveError::Unsolved { .. }) => {
                 program.rows.truncate(old);
                 break;
             }

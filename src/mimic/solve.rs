@@ -3,7 +3,7 @@
 use super::blocks::{ProgramBlock, blocks};
 use super::certificate::{Optimality, optimality};
 use super::conic::conic;
-use super::program::{Program, RowKind};
+use super::program::{Program, Row, RowKind};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
@@ -72,8 +72,12 @@ pub enum SolveError {
     /// Rows contradict each other: those that matter, by falling share in the contradiction.
     #[error("no depths satisfy all bounds")]
     Infeasible(Vec<RowKind>),
-    #[error("the solver stopped without a solution: {0}")]
-    Unsolved(String),
+    /// Neither depths nor a contradiction were found: why, and the row that the last try breaks most.
+    #[error("no depths were found: {reason}")]
+    Unsolved {
+        reason: String,
+        worst: Option<RowKind>,
+    },
 }
 
 impl SolveError {
@@ -237,8 +241,11 @@ fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
         cones,
         settings,
     } = Standard::new(program);
-    let mut solver = DefaultSolver::new(&p, &q, &a, &b, &cones, settings)
-        .map_err(|e| SolveError::Unsolved(e.to_string()))?;
+    let mut solver =
+        DefaultSolver::new(&p, &q, &a, &b, &cones, settings).map_err(|e| SolveError::Unsolved {
+            reason: e.to_string(),
+            worst: None,
+        })?;
     solver.solve();
     let solution = &solver.solution;
     let (y, z) = solution.z.split_at(program.equalities.len());
@@ -259,11 +266,35 @@ fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
                 mattering.map(|i| program.rows[i].kind).collect(),
             ))
         }
-        other => Err(SolveError::Unsolved(format!(
-            "{other:?} after {} iterations",
-            solution.iterations
-        ))),
+        other => Err(SolveError::Unsolved {
+            reason: gave_up(other, solution.iterations),
+            worst: most_broken(program, &solution.x),
+        }),
     }
+}
+
+fn gave_up(status: SolverStatus, steps: u32) -> String {
+    match status {
+        SolverStatus::MaxIterations => format!("after {steps} steps the solver was not there yet"),
+        SolverStatus::InsufficientProgress | SolverStatus::NumericalError => {
+            format!("after {steps} steps the solver got no nearer")
+        }
+        other => format!("the solver stopped after {steps} steps ({other:?})"),
+    }
+}
+
+/// The row that `u` breaks most, by the length of its terms.
+fn most_broken(program: &Program, u: &[f64]) -> Option<RowKind> {
+    let broken = |row: &Row| {
+        let terms = row.terms.iter();
+        let length = terms.clone().map(|(_, c)| c * c).sum::<f64>().sqrt();
+        (terms.map(|(j, c)| c * u[*j]).sum::<f64>() - row.limit) / length
+    };
+    let rows = program.rows.iter().map(|row| (broken(row), row.kind));
+    let worst = rows.filter(|(by, _)| *by > 0.0);
+    worst
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, kind)| kind)
 }
 
 /// `A` and `b` of `A u + slack = b`: equalities first, then rows.

@@ -1,6 +1,6 @@
 //! The arrangement itself: a constrained Delaunay triangulation split at crossings. The only module that names `spade`.
 
-use super::map::{Cell, ViewMap, ViewMapError};
+use super::map::{self, ViewMap, ViewMapError};
 use super::outline::Segment;
 use super::target::Target;
 use crate::geom::ImagePlane;
@@ -8,6 +8,7 @@ use crate::index::{CellId, PointId, VertexId};
 use crate::mesh::{TriMesh, face_neighbours};
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Snapping grids tried in turn, as shares of the window: `spade` can fail on points 1e-9 apart, and then a coarser grid helps.
@@ -26,30 +27,28 @@ pub(crate) fn arrange(
 ) -> Result<ViewMap, ViewMapError> {
     let segments = segments(target, wanted, outlines);
     let (lo, hi) = target.image_box();
-    let mut reason = String::new();
+    let reached = Cell::new(0);
     for (rung, grid) in GRIDS.into_iter().enumerate() {
         let snap = Snap {
             origin: lo,
             step: (hi - lo).max_element() * grid,
         };
         // Last resort against a panic of the triangulation on degenerate input: the next grid, then an error.
-        match catch_unwind(AssertUnwindSafe(|| triangulate(&segments, (lo, hi), &snap))) {
-            Ok(Ok((points, cells))) => {
-                let neighbours = neighbours(&cells);
-                return Ok(ViewMap {
-                    plane: *plane,
-                    points,
-                    cells,
-                    neighbours,
-                    doubtful_sr: 0.0,
-                    grid: rung,
-                });
-            }
-            Ok(Err(e)) => reason = e,
-            Err(_) => reason = "degenerate constraints".into(),
+        let run = || triangulate(&segments, (lo, hi), &snap, &reached);
+        if let Ok(Ok((points, cells))) = catch_unwind(AssertUnwindSafe(run)) {
+            let neighbours = neighbours(&cells);
+            return Ok(ViewMap {
+                plane: *plane,
+                points,
+                cells,
+                neighbours,
+                doubtful_sr: 0.0,
+                grid: rung,
+            });
         }
     }
-    Err(ViewMapError::Triangulation(reason))
+    let [a, b] = segments.get(reached.get()).copied().unwrap_or([lo, hi]);
+    Err(ViewMapError::Triangulation((a + b) / 2.0))
 }
 
 /// Edges of wanted faces, each once, then the outlines.
@@ -87,12 +86,14 @@ impl Snap {
     }
 }
 
-type Triangles = (Vec<DVec2>, Vec<Cell>);
+type Triangles = (Vec<DVec2>, Vec<map::Cell>);
 
+/// `reached` is left at the segment that was being put in.
 fn triangulate(
     segments: &[Segment],
     (lo, hi): (DVec2, DVec2),
     snap: &Snap,
+    reached: &Cell<usize>,
 ) -> Result<Triangles, String> {
     // Distinct snapped points in a fixed order; the window's corners keep everything inside the hull.
     let frame = [lo, DVec2::new(hi.x, lo.y), hi, DVec2::new(lo.x, hi.y)];
@@ -116,7 +117,8 @@ fn triangulate(
     let mut cdt =
         ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points, Vec::new())
             .map_err(|e| e.to_string())?;
-    for [a, b] in segments {
+    for (at, [a, b]) in segments.iter().enumerate() {
+        reached.set(at);
         let (a, b) = (index(a)?, index(b)?);
         if a != b {
             let (a, b) = (
@@ -136,7 +138,7 @@ fn triangulate(
     Ok((
         points,
         corners
-            .map(|corners| Cell {
+            .map(|corners| map::Cell {
                 corners,
                 face: None,
                 support: None,
@@ -150,7 +152,7 @@ fn triangulate(
 }
 
 /// For every cell the cells across its three sides.
-pub(crate) fn neighbours(cells: &[Cell]) -> Vec<[Option<CellId>; 3]> {
+pub(crate) fn neighbours(cells: &[map::Cell]) -> Vec<[Option<CellId>; 3]> {
     let across = face_neighbours(&TriMesh {
         vertices: Vec::new(),
         faces: cells

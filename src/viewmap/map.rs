@@ -111,6 +111,7 @@ pub enum ViewMapError {
     BesideEye,
     #[error("no part of the models is seen from the eye")]
     NothingSeen,
-    #[error("the image could not be triangulated: {0}")]
-    Triangulation(String),
+    /// Where in the image.
+    #[error("lines of the image run too close together to be told apart")]
+    Triangulation(DVec2),
 }

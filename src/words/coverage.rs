@@ -18,6 +18,16 @@ pub fn warnings(view: &str, found: &Coverage, carrier: &str) -> Vec<Diagnostic> 
 fn warning(view: &str, cause: &CauseShare, carrier: &str) -> Diagnostic {
     let gap = cause.largest;
     let (reason, help) = reason_and_help(gap, carrier);
+    Diagnostic::warning(format!(
+        "view \"{view}\" misses {:.2} % of its models, mostly {}: {reason}",
+        100.0 * cause.share,
+        beside_sight(gap.right_deg, gap.up_deg),
+    ))
+    .help(help)
+}
+
+/// A direction by its angles, degrees, right of and above an eye's line of sight.
+pub(super) fn beside_sight(right: f64, up: f64) -> String {
     let side = |angle: f64, less: &str, more: &str| {
         format!(
             "{:.1} degrees {}",
@@ -25,13 +35,11 @@ fn warning(view: &str, cause: &CauseShare, carrier: &str) -> Diagnostic {
             if angle < 0.0 { less } else { more }
         )
     };
-    Diagnostic::warning(format!(
-        "view \"{view}\" misses {:.2} % of its models, mostly {} and {} its line of sight: {reason}",
-        100.0 * cause.share,
-        side(gap.right_deg, "left of", "right of"),
-        side(gap.up_deg, "below", "above"),
-    ))
-    .help(help)
+    format!(
+        "{} and {} its line of sight",
+        side(right, "left of", "right of"),
+        side(up, "below", "above")
+    )
 }
 
 fn reason_and_help(gap: &Gap, carrier: &str) -> (String, String) {

@@ -5,6 +5,7 @@ mod attributes;
 mod bodies;
 mod camouflage;
 mod certificates_coverage;
+mod checked;
 mod cli;
 mod dense;
 mod detail;

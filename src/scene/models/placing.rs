@@ -316,6 +316,15 @@ pub(crate) fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
 pub(crate) fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnostic> {
     let (lo, hi) = mesh.bounds()?;
     let largest = (hi - lo).max_element();
+    let fit = "fit it: `place: Fit(largest: 60)`, or give its `units`";
+    if largest > defaults::LARGEST {
+        let message = format!(
+            "model \"{name}\" is {} mm large in the scene; the limit is {} mm, as for all lengths",
+            short(largest),
+            short(defaults::LARGEST)
+        );
+        return Some(error_at(span, message).help(fit));
+    }
     let say = |text: &str, help: &str| {
         let message = format!(
             "model \"{name}\" is {} mm large in the scene{text}",
@@ -326,14 +335,11 @@ pub(crate) fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<
     if largest < 2.0 {
         return Some(say(
             ": too small to be seen or printed",
-            "saved in metres? add `units: m` to the model, or fit it: `place: Fit(height: 60)`",
+            "saved in metres? add `units: m` to the model, or fit it: `place: Fit(largest: 60)`",
         ));
     }
     if largest > 1500.0 {
-        return Some(say(
-            ": larger than any printer",
-            "fit it: `place: Fit(height: 60)`, or give its `units`",
-        ));
+        return Some(say(": larger than any printer", fit));
     }
     None
 }

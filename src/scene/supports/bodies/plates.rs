@@ -2,11 +2,13 @@
 
 use super::entry::{BodyEntry, frame, name};
 use super::framed::{FramedMesh, upright};
+use crate::diag::Diagnostic;
 use crate::mesh::TriMesh;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawPlate, RawStrips};
-use crate::scene::text::{Field, Reader};
+use crate::scene::text::{Field, Reader, error_at, short};
 use glam::{DMat4, DVec2, DVec3};
+use std::f64::consts::TAU;
 
 /// A plate as the scene says it.
 pub(crate) fn plate<'r>(
@@ -44,6 +46,10 @@ pub(crate) fn strips<'r>(
         field => reader.length_from(field, "gap", 0.0)?.0,
     };
     let turn = reader.turn(&raw.turn);
+    if let Some(problem) = coils(reader, raw, count, turn) {
+        reader.problems.push(problem);
+        return None;
+    }
     let row = frame(reader, &raw.at, &raw.facing, &Field::Missing)?;
     // The middle of the row stays at `at`, and the middle strip looks along `facing`.
     let angle = |k: u32| turn * (f64::from(k) - f64::from(count - 1) / 2.0);
@@ -69,6 +75,27 @@ pub(crate) fn strips<'r>(
         }
     };
     Some((0..count).zip(&middles).map(strip).collect())
+}
+
+/// Strips of one width that turn by one angle lie on a circle: a row that goes round more than once lies on itself, and which of two
+/// faces in one place carries a relief is left to rounding.
+fn coils(reader: &mut Reader, raw: &RawStrips, count: u32, turn: f64) -> Option<Diagnostic> {
+    let (_, span) = reader.given(&raw.turn)?;
+    let turn = turn.rem_euclid(TAU);
+    let turn = turn.min(TAU - turn);
+    if f64::from(count) * turn <= TAU * (1.0 + 1e-9) {
+        return None;
+    }
+    let round = (TAU / turn * (1.0 + 1e-9)).floor() as u32;
+    let text = format!(
+        "{count} strips, each turned by {} degrees against the one before, go round more than once: strip {} lies on strip 1",
+        short(turn.to_degrees()),
+        round + 1
+    );
+    let closed = short((360.0 / f64::from(count) * 1e3).floor() / 1e3);
+    Some(error_at(&span, text).help(format!(
+        "`count: {round}` is once around, or `turn: {closed}` for {count} of them"
+    )))
 }
 
 /// A box behind its face.
