@@ -45,7 +45,7 @@ pub(crate) fn remarks(
     let of_view = |((view, shape), found): ((&View, &dyn Optimised), &Pictures)| {
         let summary = shape.steps().map(|(_, summary)| *summary);
         let given_up = summary.and_then(|s| words::likeness::tears_given_up(&view.name, &s));
-        let mean = found.likeness.mean_deg;
+        let mean = found.likeness.mean_of_hits_deg();
         let far = words::likeness::far_off(&view.name, mean, &built.scene.relief);
         [given_up, far].into_iter().flatten()
     };

@@ -167,7 +167,7 @@ impl fmt::Display for Defect {
 /// Pairs of intersecting faces are counted up to here: a mesh with that many is hopeless, and one with all faces in one
 /// place has quadratically many.
 const MAX_PAIRS: usize = 20_000;
-/// Comparisons of faces in a mesh that has other defects already, for each face and besides: a sound mesh needs some twenty for each,
+/// Comparisons of faces in a mesh that has other defects already, or is only looked at, for each face and besides: a sound mesh needs some twenty for each,
 /// while thousands of faces on one edge or in one place need the square of their number.
 const COMPARISONS: [u64; 2] = [50, 20_000_000];
 
@@ -175,19 +175,37 @@ const COMPARISONS: [u64; 2] = [50, 20_000_000];
 ///
 /// Intersections are looked for in any mesh with finite coordinates, the way shells lie only in otherwise sound ones.
 pub fn check(mesh: &TriMesh) -> Vec<Defect> {
+    checked(mesh, |hopeless| match hopeless {
+        true => some_intersections(mesh, MAX_PAIRS, soon(mesh)),
+        false => some_intersections(mesh, MAX_PAIRS, u64::MAX),
+    })
+}
+
+/// The same of a mesh that is only looked at: millions of needles whose boxes all meet would take minutes to compare, and what is not
+/// found soon is not told.
+pub(crate) fn check_soon(mesh: &TriMesh) -> Vec<Defect> {
+    checked(mesh, |_| {
+        let (pairs, all) = some_intersections(mesh, MAX_PAIRS, soon(mesh));
+        let none = pairs.is_empty();
+        (pairs, all || none)
+    })
+}
+
+/// As many comparisons of faces as sound meshes need, and some.
+fn soon(mesh: &TriMesh) -> u64 {
+    let [each, besides] = COMPARISONS;
+    each * mesh.faces.len() as u64 + besides
+}
+
+fn checked(
+    mesh: &TriMesh,
+    intersections: impl FnOnce(bool) -> (Vec<[FaceId; 2]>, bool),
+) -> Vec<Defect> {
     let fatal = unreadable(mesh);
     if !fatal.is_empty() {
         return fatal;
     }
     let edges = Edges::new(mesh);
-    let intersections = |hopeless: bool| {
-        let [each, besides] = COMPARISONS;
-        let most = match hopeless {
-            true => each * mesh.faces.len() as u64 + besides,
-            false => u64::MAX,
-        };
-        some_intersections(mesh, MAX_PAIRS, most)
-    };
     found(mesh, &edges, intersections, || shells_of(mesh, &edges))
 }
 

@@ -12,9 +12,6 @@ use crate::mesh::turns::turn2;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Vertices with more faces are left to the comparison of pairs: whether their faces close costs the square of that.
-const MOST_FACES: usize = 32;
-
 /// For each vertex whether its faces lie side by side. Vertices with open or crowded edges do not count.
 pub(crate) fn plain_fans(mesh: &TriMesh) -> Vec<bool> {
     let corners = FaceCorner::all(3 * mesh.faces.len()).map(|c| (c.vertex(mesh), c));
@@ -28,16 +25,17 @@ pub(crate) fn plain_fans(mesh: &TriMesh) -> Vec<bool> {
 
 /// Whether the faces of a vertex, given with all its corners, lie side by side.
 fn is_plain(mesh: &TriMesh, fan: &[(VertexId, FaceCorner)]) -> bool {
-    if fan.len() > MOST_FACES {
-        return false;
-    }
     let v = fan[0].0;
     // The side of each face opposite to the vertex.
     let opposite =
         |c: FaceCorner| [1, 2].map(|on| FaceCorner::of(c.face(), c.k() + on).vertex(mesh));
     let opposite: Vec<[VertexId; 2]> = fan.iter().map(|(_, c)| opposite(*c)).collect();
-    let follows = |end: VertexId| opposite.iter().filter(|side| side[0] == end).count() == 1;
-    if !opposite.iter().all(|side| follows(side[1])) {
+    // Each begins where one other ends.
+    let [mut starts, mut ends] =
+        [0, 1].map(|k| opposite.iter().map(|side| side[k]).collect::<Vec<_>>());
+    starts.sort_unstable();
+    ends.sort_unstable();
+    if starts != ends || starts.windows(2).any(|pair| pair[0] == pair[1]) {
         return false;
     }
     let at = |v: VertexId| mesh.vertices[v];

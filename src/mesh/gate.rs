@@ -7,7 +7,7 @@
 //! by place, so that nothing later depends on the file's order.
 
 use crate::index::{FaceId, VertexId};
-use crate::mesh::defects::{Defect, DefectKind, check};
+use crate::mesh::defects::{Defect, DefectKind, check_soon};
 use crate::mesh::order::numbered;
 use crate::mesh::shells::shells;
 use crate::mesh::topology::{Edges, HalfEdge};
@@ -105,7 +105,7 @@ pub fn gate(mut mesh: TriMesh) -> Result<Gated, Refusal> {
     let outwards = turn_outwards(&mut mesh);
     let kept = keep_referenced(&mut mesh);
     follow(&mut vertex_of, |v| kept[v]);
-    let mut defects = check(&mesh);
+    let mut defects = check_soon(&mesh);
     defects.retain(|d| d.kind != DefectKind::UnreferencedVertex);
     let faces = FaceId::all(mesh.faces.len());
     let needles = faces.filter(|f| is_needle(&mesh, *f)).count();

@@ -14,6 +14,7 @@ use crate::mesh::tri_mesh::TriMesh;
 use alum::decimate::{Decimater, HasDecimation};
 use alum::{Adaptor, Error, HH, Handle, HasIterators, PolyMeshT, VH};
 use glam::{DMat3, DVec3};
+use std::cell::Cell;
 
 /// A smaller mesh, and which vertex of the larger one each of its vertices is.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,9 @@ const THINNER: f64 = 0.5;
 /// A collapse that moves the surface by more than this share of the mesh's diagonal (root of the mean square over the faces that a
 /// vertex stands for) would lose its form. At 0.01 a ball ends at a hundred vertices, at 0.1 as a rock.
 pub const LOST: f64 = 0.04;
+/// A vertex with more edges stays until it has fewer: the poles of a ball by longitude and latitude. All of its edges are weighed after
+/// every collapse beside it, each against all of its faces, so that a pole of 2000 took a minute.
+const CROWDED: usize = 64;
 /// Weight of the planes that hold borders, square to their faces.
 const BORDER: f64 = 10.0;
 /// Where errors are equal (flat parts) the shortest edge goes first: share of its length, to the fourth power as errors are.
@@ -213,6 +217,8 @@ struct ByError<'a> {
     into: Vec<VertexId>,
     /// Square of the distance that no collapse may reach.
     lost: f64,
+    /// The vertex whose edges were counted last, and how many they were: those of one are weighed one after the other.
+    counted: Cell<Option<(VertexId, usize)>>,
 }
 
 impl<'a> ByError<'a> {
@@ -242,6 +248,7 @@ impl<'a> ByError<'a> {
             surfaces,
             lost: lost * lost,
             into: VertexId::all(points.len()).collect(),
+            counted: Cell::new(None),
             points,
             quadrics,
         }
@@ -250,6 +257,16 @@ impl<'a> ByError<'a> {
     fn sum(&self, from: VH, to: VH) -> Quadric {
         let [a, b] = [from, to].map(|v| self.quadrics[number(v)]);
         a.plus(b)
+    }
+
+    /// Number of edges at a vertex, as far as that matters.
+    fn edges_at(&self, mesh: &Halves, v: VH) -> usize {
+        if let Some((_, edges)) = self.counted.get().filter(|(of, _)| *of == number(v)) {
+            return edges;
+        }
+        let edges = mesh.vv_ccw_iter(v).take(CROWDED + 1).count();
+        self.counted.set(Some((number(v), edges)));
+        edges
     }
 
     /// Whether the faces that stay when a vertex goes to another neither fold nor become needles.
@@ -289,21 +306,25 @@ impl Decimater<Halves> for ByError<'_> {
         let along_border = h.is_boundary(mesh) || h.opposite().is_boundary(mesh);
         let held =
             self.surfaces.touching[number(from)] || (from.is_boundary(mesh) && !along_border);
+        let edges = self.edges_at(mesh, from);
         // A tetrahedron would become flat; it has three edges at every vertex.
-        let last = !from.is_boundary(mesh) && mesh.vv_ccw_iter(from).count() <= 3;
-        if held || last || !self.stays_sound(mesh, from, to) {
+        let last = !from.is_boundary(mesh) && edges <= 3;
+        if held || last || edges > CROWDED {
             return None;
         }
         let [p, q] = [from, to].map(|v| self.points[number(v)]);
         let sum = self.sum(from, to);
         let error = sum.at(q);
-        (error <= self.lost * sum.weight).then(|| error + SHORTEST * p.distance_squared(q).powi(2))
+        let keeps_form = error <= self.lost * sum.weight;
+        (keeps_form && self.stays_sound(mesh, from, to))
+            .then(|| error + SHORTEST * p.distance_squared(q).powi(2))
     }
 
     fn before_collapse(&mut self, mesh: &Halves, h: HH) -> Result<(), Error> {
         let (from, to) = (h.tail(mesh), h.head(mesh));
         self.quadrics[number(to)] = self.sum(from, to);
         self.into[number(from)] = number(to);
+        self.counted.set(None);
         Ok(())
     }
 

@@ -15,6 +15,16 @@ pub struct Likeness {
     pub pixels: usize,
 }
 
+impl Likeness {
+    /// The mean of the rays that meet the forest: what of the target is missing is told as that.
+    pub fn mean_of_hits_deg(&self) -> f64 {
+        (self.mean_deg - MISSED_DEG * (1.0 - self.hit)) / self.hit.max(1e-9)
+    }
+}
+
+/// What a ray counts that misses the forest.
+pub(super) const MISSED_DEG: f64 = 90.0;
+
 /// Of the errors in degrees of all pixels whose ray meets the target, `hits` of which meet the forest too.
 pub(super) fn likeness(errors: &[f64], hits: usize) -> Likeness {
     let mut sorted = errors.to_vec();
@@ -45,5 +55,18 @@ pub fn angle_deg(a: DVec3, b: DVec3) -> f64 {
         90.0
     } else {
         a.cross(b).length().atan2(a.dot(b)).to_degrees()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missed_does_not_count_as_turned() {
+        let found = likeness(&[90.0, 2.0, 90.0, 4.0], 2);
+        assert_eq!(found.mean_deg, 46.5);
+        assert_eq!(found.mean_of_hits_deg(), 3.0);
+        assert_eq!(likeness(&[90.0], 0).mean_of_hits_deg(), 0.0);
     }
 }

@@ -13,7 +13,7 @@ use crate::mesh::TriMesh;
 use crate::render::camera::camera;
 use crate::render::captions::{CaptionPlace, captions};
 use crate::render::heat::heat;
-use crate::render::likeness::{Likeness, angle_deg, likeness};
+use crate::render::likeness::{Likeness, MISSED_DEG, angle_deg, likeness};
 use crate::render::shading::{self, Lights, Rgb, smoothed};
 use crate::render::step_lines::{self, Panel, step_lines};
 use crate::steps::{StepLine, StepSummary};
@@ -99,7 +99,7 @@ impl Look {
         let wanted = target.normal_against(self.target?, self.direction);
         Some(
             self.forest
-                .map_or(90.0, |f| angle_deg(wanted, forest.normal(f))),
+                .map_or(MISSED_DEG, |f| angle_deg(wanted, forest.normal(f))),
         )
     }
 
