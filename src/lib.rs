@@ -93,6 +93,7 @@
 //! | a kind of relief | a file in [`kinds`] with what differs from [`kinds::Optimised`], its line in [`kinds::ReliefKind`] |
 //! | a check of what is built | a file in [`certify`] that gives figures and places, its sentence in [`words`], its line in `compile::certificates` or `compile::print` |
 //! | a file format to read | a `read_*` file in [`formats`] and its line in `formats::read`; to write: a file in [`formats`] and its line in `compile::files` |
+//! | an input that breaks something, or another thing that is read, for the fuzz targets | `tests/corpus/README.md` |
 //!
 //! # Invariants
 //!

@@ -16,6 +16,7 @@ mod energies;
 mod figures;
 mod files;
 mod formats;
+mod fuzz;
 mod golden;
 mod guarantees;
 mod horizon;

@@ -1,9 +1,11 @@
 //! Random small scenes: a build never panics, and its certificates never lie.
 //!
 //! Each scene is made twice over: by the program, and by rays of another kind at the scene's meshes and at the files of the
-//! finished forest (see `dense`). What the second finds bounds what the first may claim. `PROPTEST_CASES` asks for more scenes.
+//! finished forest (see `dense`). What the second finds bounds what the first may claim. `PROPTEST_CASES` asks for more scenes,
+//! `FUZZ_SEED` for others.
 
 use crate::dense::{Hits, Raster, allowed};
+use crate::fuzz::asked;
 use crate::shapes::{CUBE_FACES, ball, ring, wavy};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build};
@@ -19,10 +21,13 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use serde_json::Value;
 use std::fmt::Write as _;
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
 
-/// Scenes of an ordinary run of the tests.
-const CASES: u32 = 8;
+/// Scenes of an ordinary run of the tests, of either kind.
+const CASES: u32 = 6;
 /// Steps of making a failing scene smaller.
 const SHRINKS: usize = 24;
 /// Rays along a side of each view's raster: their sums are good to about a part in `SIDE` of the outlines' length.
@@ -55,11 +60,9 @@ struct Looker {
 
 #[derive(Clone, Debug)]
 struct Post {
-    kind: u8,
-    size: f64,
-    shift: (f64, f64),
+    shape: String,
+    at: (f64, f64),
     height: f64,
-    turn: f64,
     surface: bool,
 }
 
@@ -73,9 +76,12 @@ struct Draft {
     ordering: bool,
     contested: u8,
     base: bool,
+    /// Arc-minutes: narrower gaps are not told.
+    seen: u8,
 }
 
-fn drafts() -> impl Strategy<Value = Draft> {
+/// Scenes where anything may stand anywhere: models beside their pillars, pillars in each other's sight.
+fn wild() -> impl Strategy<Value = Draft> {
     let body = (0u8..5, 8.0..24.0, (-8.0..8.0, -8.0..8.0, 0.0..12.0))
         .prop_map(|(kind, largest, at)| Body { kind, largest, at });
     let looker = (
@@ -98,12 +104,14 @@ fn drafts() -> impl Strategy<Value = Draft> {
         0.0..360.0,
         prop::bool::weighted(0.25),
     )
-        .prop_map(|(kind, size, shift, height, turn, surface)| Post {
-            kind,
-            size,
-            shift,
+        .prop_map(|(kind, size, at, height, turn, surface)| Post {
+            shape: match kind {
+                0 => round(size),
+                1 => rectangle(size, 1.5 * size, turn),
+                _ => format!("Polygon(sides: 5, radius: {size:.3}, turn: {turn:.3})"),
+            },
+            at,
             height,
-            turn,
             surface,
         });
     (
@@ -117,15 +125,108 @@ fn drafts() -> impl Strategy<Value = Draft> {
         prop::bool::weighted(0.9),
     )
         .prop_map(
-            |(posts, lookers, front, back, energy, ordering, contested, base)| Draft {
-                posts,
-                lookers,
-                front,
-                back,
-                energy,
-                ordering,
-                contested,
-                base,
+            |(mut posts, lookers, front, back, energy, ordering, contested, base)| {
+                for (k, post) in posts.iter_mut().enumerate() {
+                    post.at.0 += 12.0 * ((k % 3) as f64 - 1.0);
+                    post.at.1 += 12.0 * ((k / 3) as f64 - 0.5);
+                }
+                Draft {
+                    posts,
+                    lookers,
+                    front,
+                    back,
+                    energy,
+                    ordering,
+                    contested,
+                    base,
+                    seen: 0,
+                }
+            },
+        )
+}
+
+fn round(radius: f64) -> String {
+    format!("Round(radius: {radius:.3}, facets: 24)")
+}
+
+fn rectangle(width: f64, depth: f64, turn: f64) -> String {
+    format!("Rectangle(width: {width:.3}, depth: {depth:.3}, turn: {turn:.3})")
+}
+
+/// Scenes as people make them: before every eye a model amid two rows of pillars that cover it, each in the gaps of the other; the
+/// rows of several eyes stand around the middle.
+fn aimed() -> impl Strategy<Value = Draft> {
+    let looker = (
+        -15.0..15.0_f64,
+        160.0..400.0_f64,
+        20.0..70.0_f64,
+        (0u8..5, 14.0..26.0_f64, 8.0..12.0_f64),
+    );
+    (
+        prop::collection::vec(looker, 1..4),
+        0.0..360.0_f64,
+        (0u8..3, 3.0..4.5_f64, prop::bool::weighted(0.2)),
+        (1.0..4.0, 0.1..1.0),
+        0u8..4,
+        prop::bool::weighted(0.8),
+        0u8..3,
+    )
+        .prop_map(
+            |(views, first, (kind, size, surface), (front, back), energy, ordering, contested)| {
+                let (mut posts, mut lookers) = (Vec::new(), Vec::new());
+                let out = match views.len() {
+                    1 => 0.0,
+                    2 => 16.0,
+                    _ => 30.0,
+                };
+                for (v, &(lean, distance, height, (body, largest, lift))) in
+                    views.iter().enumerate()
+                {
+                    let turn = first + lean + 360.0 / views.len() as f64 * v as f64;
+                    let ahead = DVec2::from_angle(turn.to_radians());
+                    let at = out * ahead;
+                    lookers.push(Looker {
+                        turn,
+                        distance,
+                        height,
+                        bodies: vec![Body {
+                            kind: body,
+                            largest,
+                            at: (at.x, at.y, lift),
+                        }],
+                    });
+                    let pitch = 1.5 * size;
+                    let columns = (1.2 * largest / pitch).ceil() as i32 + 2;
+                    posts.extend((0..columns).map(|k| {
+                        let side = (f64::from(k) - f64::from(columns - 1) / 2.0) * pitch;
+                        let row = if k % 2 == 0 { size } else { -size };
+                        let place = at + side * ahead.perp() + row * ahead;
+                        Post {
+                            shape: match kind {
+                                0 => round(size),
+                                1 => rectangle(2.0 * size, 1.6 * size, turn + 90.0),
+                                _ => format!(
+                                    "Polygon(sides: 8, radius: {:.3}, turn: {turn:.3})",
+                                    1.08 * size
+                                ),
+                            },
+                            at: (place.x, place.y),
+                            height: lift + largest + 8.0,
+                            surface,
+                        }
+                    }));
+                }
+                Draft {
+                    posts,
+                    lookers,
+                    front,
+                    back,
+                    energy,
+                    ordering,
+                    contested,
+                    base: true,
+                    seen: 1,
+                }
             },
         )
 }
@@ -151,28 +252,22 @@ impl Draft {
                 eye.x, eye.y, looker.height
             );
         }
-        for (k, post) in self.posts.iter().enumerate() {
-            let (size, turn) = (post.size, post.turn);
-            let shape = match post.kind {
-                0 => format!("Round(radius: {size:.3}, facets: 24)"),
-                1 => format!(
-                    "Rectangle(width: {size:.3}, depth: {:.3}, turn: {turn:.3})",
-                    1.5 * size
-                ),
-                _ => format!("Polygon(sides: 5, radius: {size:.3}, turn: {turn:.3})"),
-            };
-            let place = DVec2::new((k % 3) as f64 - 1.0, (k / 3) as f64 - 0.5) * 12.0;
-            let depth = if post.surface {
+        for Post {
+            shape,
+            at,
+            height,
+            surface,
+        } in &self.posts
+        {
+            let depth = if *surface {
                 ", depth: (from: Surface)"
             } else {
                 ""
             };
             let _ = writeln!(
                 pillars,
-                "    (shape: {shape}, height: {:.3}, places: At([({:.3}, {:.3})]){depth}),",
-                post.height,
-                place.x + post.shift.0,
-                place.y + post.shift.1
+                "    (shape: {shape}, height: {height:.3}, places: At([({:.3}, {:.3})]){depth}),",
+                at.0, at.1
             );
         }
         let energy = match self.energy {
@@ -187,10 +282,10 @@ impl Draft {
             "None"
         };
         format!(
-            "(\n  seen: 0,\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {:.3}, back: {:.3}),\n  \
+            "(\n  seen: {},\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {:.3}, back: {:.3}),\n  \
              energy: {energy},\n  contested: {contested},\n  base: {base},\n  output: (forest_glb: false, plan: false, views: false, \
              lights: false, camouflage: false, picture_size: 64),\n)\n",
-            self.front, self.back
+            self.seen, self.front, self.back
         )
     }
 }
@@ -236,37 +331,56 @@ enum End {
 }
 
 #[test]
-fn random_scenes_never_panic_and_their_certificates_hold() {
-    let asked = std::env::var("PROPTEST_CASES").ok();
-    let cases = asked.and_then(|n| n.parse().ok()).unwrap_or(CASES);
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+fn wild_scenes_never_panic_and_their_certificates_hold() {
+    random_scenes(wild(), |[_, built, whole], all| 4 * (built + whole) >= all);
+}
+
+#[test]
+fn scenes_that_aim_build_whole_and_their_certificates_hold() {
+    random_scenes(aimed(), |[_, _, whole], all| 2 * whole >= all);
+}
+
+/// As many as `PROPTEST_CASES` says, from `FUZZ_SEED` if there is one. `enough` says of the numbers of those that were refused, built
+/// and built whole whether they are what is wanted.
+fn random_scenes(scenes: impl Strategy<Value = Draft>, enough: impl Fn([usize; 3], usize) -> bool) {
+    let cases = asked("PROPTEST_CASES").unwrap_or(CASES);
+    let seed: u64 = asked("FUZZ_SEED").unwrap_or_default();
+    let mut bytes = [0; 32];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
     let (mut ends, mut wrong) = (Vec::new(), Vec::new());
     for case in 0..cases {
-        let mut tree = drafts().new_tree(&mut runner).expect("a scene");
-        match tried(&tree.current()) {
+        let mut tree = scenes.new_tree(&mut runner).expect("a scene");
+        match tried(&tree.current().text()) {
             Ok(end) => ends.push(end),
             Err(why) => {
                 println!("case {case}: {why}\n{}", tree.current().text());
-                wrong.push(smallest(&mut tree, why));
+                wrong.push(kept(&smallest(&mut tree, why)));
             }
         }
     }
     let count = |end: End| ends.iter().filter(|e| **e == end).count();
     let counts = [End::Refused, End::Built, End::BuiltWhole].map(count);
-    println!("{cases} scenes: refused, built with failures, built whole: {counts:?}");
-    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    println!(
+        "{cases} scenes, FUZZ_SEED={seed}: refused, built with failures, built whole: {counts:?}"
+    );
     assert!(
-        counts[1] + counts[2] >= cases as usize / 4,
-        "too few scenes were built: {counts:?}"
+        wrong.is_empty(),
+        "FUZZ_SEED={seed}; these scenes are in the corpus now:\n{}",
+        wrong.join("\n\n")
+    );
+    assert!(
+        enough(counts, cases as usize),
+        "too few scenes of FUZZ_SEED={seed} were built: {counts:?}"
     );
 }
 
 /// The smallest scene on the way that still fails, with the reason.
-fn smallest(tree: &mut impl ValueTree<Value = Draft>, why: String) -> String {
+fn smallest(tree: &mut impl ValueTree<Value = Draft>, why: String) -> (Draft, String) {
     let mut found = (tree.current(), why);
     for _ in 0..SHRINKS {
-        let more = match tried(&tree.current()) {
+        let more = match tried(&tree.current().text()) {
             Err(why) => {
                 found = (tree.current(), why);
                 tree.simplify()
@@ -277,14 +391,41 @@ fn smallest(tree: &mut impl ValueTree<Value = Draft>, why: String) -> String {
             break;
         }
     }
-    format!("{}\n{}", found.1, found.0.text())
+    found
+}
+
+fn kept_scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/forests")
+}
+
+/// What is wrong with a scene, which is in the corpus from now on.
+fn kept((draft, why): &(Draft, String)) -> String {
+    let text = draft.text();
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    let path = kept_scenes().join(format!("wrong-{:016x}.ron", hasher.finish()));
+    fs::write(&path, text).expect("a kept scene");
+    format!("{}: {why}", path.display())
+}
+
+#[test]
+fn kept_scenes_never_panic_and_their_certificates_hold() {
+    let entries = fs::read_dir(kept_scenes()).expect("kept scenes");
+    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+    paths.sort();
+    let wrong = paths.iter().filter_map(|path| {
+        let text = fs::read_to_string(path).expect("a scene");
+        let why = tried(&text).err()?;
+        Some(format!("{}: {why}", path.display()))
+    });
+    let wrong: Vec<String> = wrong.collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
 /// Builds a scene and holds the result against the rays.
-fn tried(draft: &Draft) -> Result<End, String> {
-    let text = draft.text();
+fn tried(text: &str) -> Result<End, String> {
     let run = || {
-        let scene = scene::resolve(&text, &model)?.value;
+        let scene = scene::resolve(text, &model)?.value;
         let build = compile::build(&scene, &|_, _| {}, &|| false)?;
         Ok((scene, build))
     };
@@ -294,6 +435,7 @@ fn tried(draft: &Draft) -> Result<End, String> {
         Err(problems) => {
             let told = problems.iter().all(|p| !p.message.trim().is_empty());
             let stopped = problems.iter().any(Diagnostic::is_error);
+            told_first("refused", &problems);
             match told && stopped {
                 true => Ok(End::Refused),
                 false => Err(format!("errors that say nothing: {problems:?}")),
@@ -301,12 +443,20 @@ fn tried(draft: &Draft) -> Result<End, String> {
         }
         Ok((scene, build)) => {
             let lies = lies(&scene, &build);
+            told_first("built with failures", &build.failures);
             match (lies.is_empty(), build.failures.is_empty()) {
                 (false, _) => Err(lies.join("\n")),
                 (true, false) => Ok(End::Built),
                 (true, true) => Ok(End::BuiltWhole),
             }
         }
+    }
+}
+
+/// For those who look at the output: why a scene is not whole.
+fn told_first(end: &str, problems: &[Diagnostic]) {
+    if let Some(first) = problems.iter().find(|p| p.is_error()) {
+        println!("{end}: {}", first.message);
     }
 }
 
