@@ -435,7 +435,7 @@ fn tried(text: &str) -> Result<End, String> {
         Err(problems) => {
             let told = problems.iter().all(|p| !p.message.trim().is_empty());
             let stopped = problems.iter().any(Diagnostic::is_error);
-            told_first("refused", &problems);
+            told_first("refused", &problems, text);
             match told && stopped {
                 true => Ok(End::Refused),
                 false => Err(format!("errors that say nothing: {problems:?}")),
@@ -443,7 +443,7 @@ fn tried(text: &str) -> Result<End, String> {
         }
         Ok((scene, build)) => {
             let lies = lies(&scene, &build);
-            told_first("built with failures", &build.failures);
+            told_first("built with failures", &build.failures, text);
             match (lies.is_empty(), build.failures.is_empty()) {
                 (false, _) => Err(lies.join("\n")),
                 (true, false) => Ok(End::Built),
@@ -454,9 +454,9 @@ fn tried(text: &str) -> Result<End, String> {
 }
 
 /// For those who look at the output: why a scene is not whole.
-fn told_first(end: &str, problems: &[Diagnostic]) {
+fn told_first(end: &str, problems: &[Diagnostic], text: &str) {
     if let Some(first) = problems.iter().find(|p| p.is_error()) {
-        println!("{end}: {}", first.message);
+        println!("{end}: {}\n{text}", first.message);
     }
 }
 
