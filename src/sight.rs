@@ -43,8 +43,6 @@ pub enum Unseen {
     /// A face that the support carries has a corner at this angle, radians, from the way to the support, whose layer no ray meets
     /// so far beside it.
     Beside(SupportId, f64),
-    /// Nothing that is seen has bounds.
-    Free,
 }
 
 /// Why a support carries nothing for an eye.
@@ -62,7 +60,7 @@ impl<'a> Sight<'a> {
     /// Projects, maps and groups one view.
     ///
     /// # Errors
-    /// If the models do not lie before the eye, nothing of them is seen, no support carries them, or nothing holds them.
+    /// If the models do not lie before the eye, nothing of them is seen, no support carries them, or faces reach too far beside one.
     pub fn new(view: &'a View, field: &'a SupportField<'a>) -> Result<Self, Unseen> {
         let image = Image::new(view, field).map_err(Unseen::Image)?;
         let groups = groups(&image).map_err(Unseen::Thin)?;
@@ -71,9 +69,6 @@ impl<'a> Sight<'a> {
         }
         if let Some((support, angle)) = beside(&image, &groups) {
             return Err(Unseen::Beside(support, angle));
-        }
-        if groups.bounds.is_empty() {
-            return Err(Unseen::Free);
         }
         Ok(Self {
             image,

@@ -13,7 +13,7 @@ use crate::words;
 /// Projects, maps and groups one view, and holds what its kind of relief holds.
 ///
 /// # Errors
-/// If the models do not lie before the eye, nothing of them is seen, no support carries them, or they cannot stay whole.
+/// If the models do not lie before the eye, nothing of them is seen, no support carries or holds them, or they cannot stay whole.
 pub(crate) fn see<'a>(
     view: &'a View,
     field: &'a SupportField<'a>,
@@ -21,6 +21,9 @@ pub(crate) fn see<'a>(
 ) -> Result<Sight<'a>, Vec<Diagnostic>> {
     let (name, supports) = (&view.name, field.supports);
     let sight = Sight::new(view, field).map_err(|e| words::sight::unseen(name, supports, &e))?;
+    if sight.groups.bounds.is_empty() {
+        return Err(vec![words::sight::all_free(name, supports)]);
+    }
     let held = scene.relief.held(sight);
     held.map_err(|e| vec![words::sight::split(name, supports, e)])
 }

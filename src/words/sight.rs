@@ -33,14 +33,18 @@ pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnosti
             angle.to_degrees()
         ))
         .help("make the models smaller, or move the eye away; or subdivide the faces of the model, so that each lies on its supports")],
-        Unseen::Free => vec![Diagnostic::error(format!(
-            "view \"{view}\": all that is seen of its models is free, so nothing holds it to its {}",
-            carrier(supports)
-        ))
-        .help("leave a part of them out of the `regions` with `free: true`: it is that part that lies in the layer")],
         Unseen::Thin(thin) => thin.iter().map(|t| too_thin(view, supports, t)).collect(),
         Unseen::NotCarried(aside) => vec![not_carried(view, supports, aside)],
     }
+}
+
+/// Models of which nothing that is seen has bounds.
+pub fn all_free(view: &str, supports: &[Support]) -> Diagnostic {
+    Diagnostic::error(format!(
+        "view \"{view}\": all that is seen of its models is free, so nothing holds it to its {}",
+        carrier(supports)
+    ))
+    .help("leave a part of them out of the `regions` with `free: true`: it is that part that lies in the layer")
 }
 
 fn not_carried(view: &str, supports: &[Support], found: &[(SupportId, Elsewhere)]) -> Diagnostic {
