@@ -66,7 +66,7 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
     let Some(kind) = worst else {
         return Diagnostic::error(format!("view \"{view}\": {error}"))
             .fault()
-            .help("thicker layers (`front`, `back`) make it easier; `check` tells whether the models are sound");
+            .help("thicker layers (`front`, `back`) make it easier, and supports that do not jump where the eye looks along them");
     };
     let (bound, limit) = match kind {
         RowKind::Near(b) => (groups.bounds.get(*b as usize), "nearest"),
@@ -77,7 +77,9 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
         return Diagnostic::error(format!(
             "view \"{view}\": {error} and keep the depth order of the model's parts"
         ))
-        .help("try `ordering: false` in `energy`, or thicker layers (`front`, `back`)");
+        .help(
+            "let the surface tear (`energy: Normal(steps: Allowed())`), try `ordering: false` there, or thicker layers (`front`, `back`)",
+        );
     };
     let support = groups.groups[bound.group].support;
     let support = &sight.image.field.supports[support].name;
@@ -85,5 +87,7 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
         "view \"{view}\": {error}; the {limit} depth on {support} contradicts its neighbours (allowed there: {:.5} to {:.5} of the model's depth)",
         bound.lower, bound.upper
     ))
-    .help(format!("give {support} a thicker layer (`front`, `back`)"))
+    .help(format!(
+        "let the surface tear (`energy: Normal(steps: Allowed())`), or give {support} a thicker layer (`front`, `back`)"
+    ))
 }
