@@ -126,23 +126,46 @@ pub struct Care {
     pub fins: [f64; 2],
     /// Room between a relief, wherever it lies in its layer, and solids other than its pillar.
     pub reliefs: f64,
+    pub plates: Plates,
+}
+
+/// What of a relief stands between a cut and an upright contour of the models: a plate along the sight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plates {
+    /// Thinner ones are not made, millimetres.
+    pub thinnest: f64,
+    /// But smaller ones are not missed, square millimetres.
+    pub missed: f64,
+}
+
+impl Plates {
+    /// All may be as thin as they are.
+    pub const ANY: Self = Self {
+        thinnest: 0.0,
+        missed: 0.0,
+    };
 }
 
 impl Care {
-    /// For layouts found: polygons inside their circles and rounding to printable coordinates take a hundredth of the overlap, and
-    /// strips are as wide as three lines of a 0.4 mm nozzle.
-    pub const FOUND: Self = Self {
-        overlap: 0.25,
-        narrowest: 1.2,
-        fins: [0.42, 1.8],
-        reliefs: 0.5,
-    };
+    /// For layouts found, made with lines of this width that leave these plates: polygons inside their circles and rounding to printable
+    /// coordinates take a hundredth of the overlap, and strips are as wide as three lines.
+    pub fn found(line: f64, plates: Plates) -> Self {
+        Self {
+            overlap: 0.25,
+            narrowest: 3.0 * line,
+            fins: [1.05 * line, 4.5 * line],
+            reliefs: 0.5,
+            plates,
+        }
+    }
+
     /// For layouts made by hand: what a build can just do with. Reliefs of neighbours may meet in a cut.
     pub const GIVEN: Self = Self {
         overlap: 0.02,
         narrowest: 0.4,
         fins: [0.0, 0.0],
         reliefs: 0.0,
+        plates: Plates::ANY,
     };
 }
 

@@ -4,6 +4,7 @@
 //! nothing stands in its way, or says which limit binds. Deterministic for a seed and a number of tries, whatever the thread count.
 
 mod brief;
+mod contours;
 pub mod convex;
 mod finish;
 mod forecast;
@@ -21,7 +22,7 @@ mod survey;
 mod task;
 mod watch;
 
-pub use brief::{Adjustment, Brief, Care, Freedom, Matters, Pillar, Region, Shape};
+pub use brief::{Adjustment, Brief, Care, Freedom, Matters, Pillar, Plates, Region, Shape};
 pub use limits::{NoLayout, Remedies};
 pub use plan::plan;
 pub use planned::{Change, Ended, Frame, Planned, Trade, Worth};

@@ -5,6 +5,7 @@
 //! Slopes are heights over horizontal distances.
 
 use super::brief::{Pillar, Shape};
+use super::contours::Contours;
 use crate::bvh::Bvh;
 use crate::horizon::{Shadow, Viewpoint, turn};
 use crate::mesh::TriMesh;
@@ -76,6 +77,7 @@ pub struct Subject {
     /// Smallest and largest slope in each of [`COLUMNS`] columns between the first and the last bearing.
     slopes: Vec<[f64; 2]>,
     pub portrait: Portrait,
+    pub(crate) contours: Contours,
     /// Middle of the models' box.
     pub middle: DVec3,
     /// Width of all models square to the view, millimetres.
@@ -98,6 +100,7 @@ impl Subject {
                 step: DVec2::ONE,
                 normals: Vec::new(),
             },
+            contours: Contours::new(view.eye, ahead, target),
             middle: target
                 .bounds()
                 .map_or(view.look_at, |(lo, hi)| (lo + hi) / 2.0),

@@ -62,8 +62,9 @@ pub fn torn<'a>(
             depths,
         } = match opened(steps, options, sight, &patches, &y, &absorbed) {
             Ok(opened) => opened,
-            Err(SolveError::Infeasible(_)) if !last => {
-                // Limits that contradict each other: with fewer tears there are fewer of them.
+            // Steps that contradict each other: with fewer tears there are fewer of them. Bounds alone would contradict each other all the
+            // more where less is torn.
+            Err(SolveError::Infeasible(rows)) if !last && !rows.iter().all(is_bound) => {
                 given_up += 1;
                 continue;
             }
@@ -142,6 +143,10 @@ fn opened<'a>(
             Err(other) => return Err(other),
         }
     }
+}
+
+fn is_bound(row: &RowKind) -> bool {
+    matches!(row, RowKind::Near(_) | RowKind::Far(_))
 }
 
 /// The numbers of the steps among rows.

@@ -51,9 +51,19 @@ impl<'a> SupportField<'a> {
 
     /// As [`Self::first_hit`], of one support, whatever stands before it.
     pub fn hit_of(&self, support: SupportId, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.facet_of(support, origin, direction).map(|f| f.1)
+    }
+
+    /// The same with the facet that is hit.
+    pub(super) fn facet_of(
+        &self,
+        support: SupportId,
+        origin: DVec3,
+        direction: DVec3,
+    ) -> Option<(FacetId, f64)> {
         let own = |face: FaceId| self.owner[face] == support;
         let hit = self.bvh.first_hit_where(origin, direction, own);
-        hit.map(|h| h.t)
+        hit.map(|h| (FacetId::of(h.face), h.t))
     }
 
     /// How thick a support is behind where a ray first meets it, in units of the ray's direction; infinite if it never leaves it.

@@ -4,12 +4,13 @@ use super::arrange::GRIDS;
 use super::field::SupportField;
 use super::map::{ViewMap, ViewMapError};
 use super::seen::view_map;
+use super::steep::Fronts;
 use super::target::Target;
 use crate::index::{CellId, FacetId, SupportId};
 use crate::ladder::Ladder;
 use crate::support::{Hits, Slab};
 use crate::view::View;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// A layer that differs by more than this where two facets meet has jumped, millimetres: rounding and merged cells leave less.
 const JUMP_MM: f64 = 0.05;
@@ -20,6 +21,7 @@ pub struct Image<'a> {
     pub field: &'a SupportField<'a>,
     pub target: Target,
     pub map: ViewMap,
+    fronts: Fronts,
 }
 
 impl<'a> Image<'a> {
@@ -31,6 +33,7 @@ impl<'a> Image<'a> {
         let target = target.marked(view.marks());
         Ok(Self {
             map: view_map(plane, &target, field)?,
+            fronts: Fronts::new(field, plane.eye),
             view,
             field,
             target,
@@ -53,6 +56,7 @@ impl<'a> Image<'a> {
         Self {
             target,
             map,
+            fronts: self.fronts.clone(),
             ..*self
         }
     }
@@ -73,29 +77,63 @@ impl<'a> Image<'a> {
             return slab.bounds(direction, Hits { first, leaves });
         }
         // At the outline the ray may just miss the support: the datum plane is where a pillar's surface ends there.
-        let surface = field
-            .hit_of(support, plane.eye, direction)
-            .unwrap_or(on_plane);
-        slab.bounds(direction, Hits::at(surface))
+        match field.facet_of(support, plane.eye, direction) {
+            Some((facet, surface)) => self.bounds(slab, facet, direction, Hits::at(surface)),
+            None => slab.bounds(direction, Hits::at(on_plane)),
+        }
+    }
+
+    /// Smallest and largest depth of a layer on a facet: it begins before that, or before the facet whose plane it keeps to.
+    fn bounds(&self, slab: &Slab, facet: FacetId, direction: DVec3, hits: Hits) -> (f64, f64) {
+        let (near, far) = slab.bounds(direction, hits);
+        let front = self.fronts.before(facet).map(|front| {
+            let eye = self.map.plane.eye;
+            let surface = self.field.facet_depth(front, eye, direction);
+            slab.bounds(direction, Hits::at(surface)).0
+        });
+        // A plane that the ray meets behind the eye is not before anything.
+        let front = front.filter(|f| *f > 0.0);
+        (front.map_or(near, |f| near.min(f)), far)
     }
 
     /// The same at corner `k` of a cell, whose part of the support is one plane: the inverses of both are affine over the cell.
     /// Where an outline of the model is to lie on the support, at its corners there is hardly any room.
     pub fn layer_in(&self, slab: &Slab, cell: CellId, k: usize) -> (f64, f64) {
         let q = self.map.triangle(cell)[k];
-        let direction = self.map.plane.direction(q);
         let surface = self.surface_in(slab, cell, q);
-        slab.on_datum(direction, surface)
+        let drawn = slab.on_datum(self.map.plane.direction(q), surface);
+        drawn
             .filter(|_| self.map.cells[cell].outline[k])
-            .unwrap_or_else(|| slab.bounds(direction, surface))
+            .unwrap_or_else(|| self.bounds_in(slab, cell, q))
     }
 
-    /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps.
+    /// The same on any ray through a cell, whatever outlines are there.
+    fn bounds_in(&self, slab: &Slab, cell: CellId, q: DVec2) -> (f64, f64) {
+        let direction = self.map.plane.direction(q);
+        let surface = self.surface_in(slab, cell, q);
+        match self.map.cells[cell]
+            .facet
+            .filter(|_| slab.follows_surface())
+        {
+            Some(facet) => self.bounds(slab, facet, direction, surface),
+            None => slab.bounds(direction, surface),
+        }
+    }
+
+    /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps,
+    /// and where it meets again a surface that it did not follow over a steep facet.
     pub(crate) fn layer_goes_on(&self, slab: &Slab, cell: CellId, k: usize, next: CellId) -> bool {
+        if !slab.is_shell() {
+            return true;
+        }
         let corners = self.map.triangle(cell);
         let middle = corners[k].midpoint(corners[(k + 1) % 3]);
-        let depth = |c: CellId| slab.shell_backing(self.surface_in(slab, c, middle), 0.0);
-        !slab.is_shell() || (depth(cell) - depth(next)).abs() < JUMP_MM
+        let [one, other] = [cell, next].map(|c| {
+            let surface = self.surface_in(slab, c, middle);
+            let (near, _) = self.bounds_in(slab, c, middle);
+            [near, slab.shell_backing(surface, 0.0)]
+        });
+        one.iter().zip(other).all(|(a, b)| (a - b).abs() < JUMP_MM)
     }
 
     /// Where the ray `q` meets a layer's datum, in the plane that the support is in a cell; and where it leaves the wall behind, if

@@ -17,6 +17,7 @@ mod image;
 mod map;
 mod outline;
 mod seen;
+mod steep;
 mod target;
 mod thin;
 

@@ -140,12 +140,17 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
                 "view \"{view}\": {error}; the {limit} depth on {} contradicts its neighbours (allowed there: {:.5} to {:.5} of the model's depth)",
                 support.name, bound.lower, bound.upper
             ))
-            .help(format!("give {} a thicker layer (`front`, `back`)", support.name))
+            .help(format!(
+                "let the surface tear (`energy: Normal(steps: Allowed())`), or give {} a thicker layer (`front`, `back`)",
+                support.name
+            ))
         }
         (SolveError::Infeasible(_), None) if is_order => Diagnostic::error(format!(
             "view \"{view}\": {error} and keep the depth order of the model's parts"
         ))
-        .help("try `ordering: false` in `energy`, or thicker layers (`front`, `back`)"),
+        .help(
+            "let the surface tear (`energy: Normal(steps: Allowed())`), try `ordering: false` there, or thicker layers (`front`, `back`)",
+        ),
         (SolveError::Unsolved { .. }, Some((bound, limit))) => {
             let support = support_of(sight, bound);
             let told = Diagnostic::error(format!(
@@ -162,7 +167,7 @@ pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
         }
         _ => Diagnostic::error(format!("view \"{view}\": {error}"))
             .fault()
-            .help("thicker layers (`front`, `back`) make it easier; `check` tells whether the models are sound"),
+            .help("thicker layers (`front`, `back`) make it easier, and supports that do not jump where the eye looks along them"),
     }
 }
 

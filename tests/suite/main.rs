@@ -41,6 +41,7 @@ mod scenes;
 mod sections;
 mod shapes;
 mod split;
+mod steep;
 mod steps;
 mod surface;
 mod tolerance;

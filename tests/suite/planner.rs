@@ -6,8 +6,8 @@ use pillarforest::geom::hull;
 use pillarforest::mesh::TriMesh;
 use pillarforest::planner::convex::{clipped, part};
 use pillarforest::planner::{
-    Adjustment, Brief, Care, Ended, FaultKind, Freedom, Matters, Pillar, Planned, Region, Shape,
-    Subject, Survey, Watch, plan, repair, start,
+    Adjustment, Brief, Care, Ended, FaultKind, Freedom, Matters, Pillar, Planned, Plates, Region,
+    Shape, Subject, Survey, Watch, plan, repair, start,
 };
 use pillarforest::view::View;
 use pillarforest::words::planner::no_layout;
@@ -53,7 +53,7 @@ fn brief(views: usize, region: Region, tries: u64) -> Brief {
         shapes: vec![round(4.0)],
         allowed: 1,
         gap: 0.5,
-        care: Care::FOUND,
+        care: Care::found(0.4, Plates::ANY),
         count: [1, 200],
         given: Vec::new(),
         seed: 1,
@@ -581,6 +581,69 @@ fn a_layout_out_of_order_is_mended_with_few_changes() {
         .filter(|p| given.iter().any(|g| g.at == p.at))
         .count();
     assert!(kept >= given.len() - 2);
+}
+
+/// Upright bars, 6 mm wide with 6 mm between them, and the stretches of bearings at which an eye sees each.
+fn bars(eye: DVec3) -> (View, Vec<[f64; 2]>) {
+    let (mut vertices, mut faces, mut stretches) = (Vec::new(), Vec::new(), Vec::new());
+    for k in -3..=3 {
+        let at = 12.0 * f64::from(k);
+        let foot = [(-3.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-3.0, 2.0)];
+        let foot = foot.map(|(x, y)| DVec2::new(at + x, y));
+        let bar = shapes::prism(&foot, 10.0, 60.0);
+        let before = vertices.len() as u32;
+        vertices.extend(bar.vertices);
+        faces.extend(bar.faces.iter().map(|f| f.map(|v| before + v.0)));
+        let bearings = foot.map(|p| DVec2::Y.angle_to(p - eye.truncate()));
+        stretches.push([
+            bearings.into_iter().fold(f64::INFINITY, f64::min),
+            bearings.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ]);
+    }
+    (view(0, eye, TriMesh::new(vertices, faces)), stretches)
+}
+
+/// Widths of what cuts between pillars leave of the bars, millimetres on pillars, if less than a printed wall.
+fn plates(views: &[View], bars: &[[f64; 2]], brief: &Brief, pillars: &[Pillar]) -> Vec<f64> {
+    let all = subjects(views);
+    let all: Vec<&Subject> = all.iter().collect();
+    let skyline = &Survey::new(&all, brief, pillars).skylines[0];
+    let cuts = skyline.runs.windows(2).filter(|w| w[0].to == w[1].from);
+    let widths = cuts.flat_map(|w| {
+        let nearest = [w[0].obstacle, w[1].obstacle].map(|i| skyline.shadows[i.unwrap()].distance);
+        let beside = bars
+            .iter()
+            .flat_map(move |[a, b]| [w[0].to - a, b - w[0].to]);
+        beside.map(move |mm| mm * nearest[0].min(nearest[1]))
+    });
+    widths.filter(|mm| (0.0..0.65).contains(mm)).collect()
+}
+
+/// Letters have upright edges: a cut just beside one leaves a plate that no printer makes.
+#[test]
+fn no_cut_of_a_found_layout_leaves_a_plate_too_thin_to_print() {
+    let (view, bars) = bars(DVec3::new(0.0, -280.0, 50.0));
+    let views = [view];
+    let thin = |care: Care, seed: u64| -> Vec<f64> {
+        let brief = Brief {
+            care,
+            seed,
+            ..brief(1, disc(60.0), 2000)
+        };
+        let planned = plan(&views, &brief, PATIENT).unwrap();
+        plates(&views, &bars, &brief, &planned.pillars)
+    };
+    let careless: Vec<f64> = (1..=5)
+        .flat_map(|seed| thin(Care::found(0.4, Plates::ANY), seed))
+        .collect();
+    assert!(careless.len() >= 3, "{careless:?}");
+    let printed = Plates {
+        thinnest: 0.7,
+        missed: 25.0,
+    };
+    for seed in 1..=5 {
+        assert_eq!(thin(Care::found(0.4, printed), seed), [0.0; 0]);
+    }
 }
 
 #[test]

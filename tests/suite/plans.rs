@@ -4,8 +4,8 @@ use crate::shapes::{self, flat_layer};
 use glam::{DVec2, DVec3};
 use pillarforest::diag::Diagnostic;
 use pillarforest::planner::{
-    Adjustment, Brief, Care, Change, Ended, Frame, Freedom, Matters, Pillar, Planned, Region,
-    Shape, Subject, Survey, Trade, Worth,
+    Adjustment, Brief, Care, Change, Ended, Frame, Freedom, Matters, Pillar, Planned, Plates,
+    Region, Shape, Subject, Survey, Trade, Worth,
 };
 use pillarforest::scene::{self, Scene};
 use pillarforest::steps::UNSEEN_RAD;
@@ -123,7 +123,7 @@ fn brief_of(scene: &Scene) -> (Brief, Vec<Pillar>) {
 fn brief(region: Vec<DVec2>, shapes: Vec<Shape>, views: usize) -> Brief {
     Brief {
         region: Region::new(region),
-        care: Care::FOUND,
+        care: Care::found(0.4, Plates::ANY),
         allowed: shapes.len(),
         shapes,
         gap: 0.5,

@@ -78,6 +78,7 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
 fn built(name: &str) -> &'static Built {
     static MINIMAL: OnceLock<Built> = OnceLock::new();
     static FOUR: OnceLock<Built> = OnceLock::new();
+    static AGAMOGRAPH: OnceLock<Built> = OnceLock::new();
     static PLATE: OnceLock<Built> = OnceLock::new();
     static REFERENCE: OnceLock<Built> = OnceLock::new();
     static PLANNED: OnceLock<Built> = OnceLock::new();
@@ -85,6 +86,7 @@ fn built(name: &str) -> &'static Built {
     let slot = match name {
         "minimal" => &MINIMAL,
         "four-creatures" => &FOUR,
+        "agamograph" => &AGAMOGRAPH,
         "plate" => &PLATE,
         "reference-forest" => &REFERENCE,
         "planned-creatures" => &PLANNED,

@@ -35,6 +35,7 @@ pub use check::{
     WALL_NOZZLES,
 };
 pub use overhang::STEEP_DEG;
+pub(crate) use walls::MISSED_MM2;
 
 use rayon::join;
 

@@ -41,18 +41,15 @@ impl OfView<'_> {
             let mm = self.beyond_ends(run, i);
             self.note(faults, FaultKind::Ends, own, mm, place);
             self.look_at_ends(k, i, faults);
+            self.look_at_plates(k, i, faults);
         }
     }
 
     /// Faults where the run `k`, on the view's own pillar `i`, goes over to its neighbours or past the models' outline.
     fn look_at_ends(&self, k: usize, i: usize, faults: &mut Vec<Fault>) {
-        let (runs, shadow) = (&self.skyline.runs, &self.skyline.shadows[i]);
-        let run = &runs[k];
+        let (run, shadow) = (&self.skyline.runs[k], &self.skyline.shadows[i]);
         let place = (run, shadow.distance);
-        let left = k.checked_sub(1).map(|p| &runs[p]);
-        let left = left.filter(|r| r.to == run.from).and_then(|r| r.obstacle);
-        let right = runs.get(k + 1).filter(|r| r.from == run.to);
-        let right = right.and_then(|r| r.obstacle);
+        let [left, right] = self.neighbours(k);
         let behind_left = self.reach_on(left, run.from, |s, at| s.to - at);
         let behind_right = self.reach_on(right, run.to, |s, at| at - s.from);
         for (j, own, behind) in [
@@ -69,6 +66,52 @@ impl OfView<'_> {
             let mm = if j.is_some() { mm } else { 0.0 };
             self.note(faults, FaultKind::Fin, [Some(i), j], mm, place);
         }
+    }
+
+    /// Faults where the models leave too thin a plate between an end of the run `k`, on the view's own pillar `i`, and a contour.
+    fn look_at_plates(&self, k: usize, i: usize, faults: &mut Vec<Fault>) {
+        let (run, plates) = (&self.skyline.runs[k], self.brief.care.plates);
+        let offsets = Offsets::new(&self.brief.shapes[self.pillars[i].shape]);
+        let distance = self.skyline.shadows[i].distance + offsets.near;
+        let thinnest = plates.thinnest / distance;
+        let contours = &self.subject.contours;
+        let [left, right] = self.neighbours(k);
+        for (next, end, strips) in [
+            (left, run.from, contours.after(run.from, thinnest)),
+            (right, run.to, contours.before(run.to, thinnest)),
+        ] {
+            let area = strips.height * distance * self.free_depth(i, end);
+            if next.is_some() && area > plates.missed {
+                let mm = (thinnest - strips.width) * distance;
+                self.note(
+                    faults,
+                    FaultKind::Narrow,
+                    [Some(i), next],
+                    mm,
+                    (run, distance),
+                );
+            }
+        }
+    }
+
+    /// The pillars of the runs that the run `k` joins, at its first and its last bearing.
+    fn neighbours(&self, k: usize) -> [Option<usize>; 2] {
+        let runs = &self.skyline.runs;
+        let left = k.checked_sub(1).map(|p| &runs[p]);
+        let left = left.filter(|r| r.to == runs[k].from);
+        let right = runs.get(k + 1).filter(|r| r.from == runs[k].to);
+        [left, right].map(|r| r.and_then(|r| r.obstacle))
+    }
+
+    /// How much of the layer of pillar `i` lies before or behind its body at a bearing, millimetres: nothing holds a plate there.
+    fn free_depth(&self, i: usize, bearing: f64) -> f64 {
+        let (pillar, distance) = (&self.pillars[i], self.skyline.shadows[i].distance);
+        let shape = &self.brief.shapes[pillar.shape];
+        let offsets = Offsets::new(shape);
+        let ray = self.subject.viewpoint().ray(bearing);
+        let entry = shape.obstacle(pillar.at).entry(&ray);
+        let before = entry.map_or(0.0, |e| (distance - e.distance).max(0.0));
+        (-offsets.near - before).max(0.0) + (offsets.far - before).max(0.0)
     }
 
     /// How far the pillar on the other side of a cut reaches over to this one; at an outline, how far any of the view's own

@@ -4,9 +4,11 @@ use super::aims::{count, freedom, matters, narrow, range, tolerance};
 use super::around::Around;
 use super::region::Room;
 use super::written::{as_written, rounded};
-use crate::planner::{Brief, Care, Freedom, Pillar, Region, Shape};
+use crate::certify::printability::MISSED_MM2;
+use crate::planner::{Brief, Care, Freedom, Pillar, Plates, Region, Shape};
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawAuto, RawRange, RawShape};
+use crate::scene::resolved::Making;
 use crate::scene::supports::Standing;
 use crate::scene::supports::cross_section::{CrossSection, cross_section};
 use crate::scene::supports::depths::{Wish, settled};
@@ -48,7 +50,7 @@ pub(crate) fn brief(
     let standing = fixed.iter().map(|e| e.spots.len()).sum();
     let mut brief = Brief {
         region: Region::new(region),
-        care: Care::FOUND,
+        care: Care::found(around.making.line, plates(around.making)),
         allowed: shapes.len(),
         shapes,
         gap: gap.map_or(defaults::GAP, |(v, _)| v),
@@ -68,12 +70,26 @@ pub(crate) fn brief(
     (brief, spans)
 }
 
+/// Plates that the check of walls lets pass, with a tenth in hand for what perspective and carving take.
+fn plates(making: &Making) -> Plates {
+    match making.limits.wall {
+        Some(wall) => Plates {
+            thinnest: 1.1 * wall.limit,
+            missed: MISSED_MM2,
+        },
+        None => Plates::ANY,
+    }
+}
+
 /// The brief of a list of pillars that are to be moved as little as can be, in `region`.
 pub(crate) fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Around) -> Brief {
     let standing: usize = entries.iter().map(|e| e.spots.len()).sum();
     let mut brief = Brief {
         region: Region::new(region),
-        care: Care::GIVEN,
+        care: Care {
+            plates: plates(around.making),
+            ..Care::GIVEN
+        },
         shapes: Vec::new(),
         allowed: 0,
         // What is printable as it stands need not move.
