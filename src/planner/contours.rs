@@ -27,12 +27,12 @@ pub(crate) struct Contours {
 
 /// Where one level meets faces: all, and those that look at the eye.
 #[derive(Clone, Debug, Default)]
-struct Row {
+struct Level {
     all: Vec<[f64; 2]>,
     facing: Vec<[f64; 2]>,
 }
 
-impl Row {
+impl Level {
     /// What hangs together, from the first facing face to the last.
     fn without_flanks(self) -> Vec<[f64; 2]> {
         let facing = joined(self.facing);
@@ -72,7 +72,7 @@ impl Contours {
         if !(row > 0.0) {
             return Self::default();
         }
-        let mut rows: Vec<Row> = vec![Row::default(); ROWS];
+        let mut rows: Vec<Level> = vec![Level::default(); ROWS];
         for (f, face) in FaceId::all(target.faces.len()).zip(&target.faces) {
             let [Some(a), Some(b), Some(c)] = face.map(|v| image[v]) else {
                 continue;
@@ -92,7 +92,7 @@ impl Contours {
                 met.facing.extend(stretch.filter(|_| is_facing));
             }
         }
-        let stretches = rows.into_iter().flat_map(Row::without_flanks);
+        let stretches = rows.into_iter().flat_map(Level::without_flanks);
         let mut by_first: Vec<[f64; 2]> = stretches.map(|s| s.map(f64::atan)).collect();
         let mut by_last = by_first.clone();
         by_first.sort_by(|a, b| a[0].total_cmp(&b[0]));

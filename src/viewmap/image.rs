@@ -100,40 +100,25 @@ impl<'a> Image<'a> {
     /// Where an outline of the model is to lie on the support, at its corners there is hardly any room.
     pub fn layer_in(&self, slab: &Slab, cell: CellId, k: usize) -> (f64, f64) {
         let q = self.map.triangle(cell)[k];
-        let surface = self.surface_in(slab, cell, q);
-        let drawn = slab.on_datum(self.map.plane.direction(q), surface);
-        drawn
-            .filter(|_| self.map.cells[cell].outline[k])
-            .unwrap_or_else(|| self.bounds_in(slab, cell, q))
-    }
-
-    /// The same on any ray through a cell, whatever outlines are there.
-    fn bounds_in(&self, slab: &Slab, cell: CellId, q: DVec2) -> (f64, f64) {
         let direction = self.map.plane.direction(q);
         let surface = self.surface_in(slab, cell, q);
-        match self.map.cells[cell]
+        let facet = self.map.cells[cell]
             .facet
-            .filter(|_| slab.follows_surface())
-        {
-            Some(facet) => self.bounds(slab, facet, direction, surface),
-            None => slab.bounds(direction, surface),
-        }
+            .filter(|_| slab.follows_surface());
+        slab.on_datum(direction, surface)
+            .filter(|_| self.map.cells[cell].outline[k])
+            .unwrap_or_else(|| match facet {
+                Some(facet) => self.bounds(slab, facet, direction, surface),
+                None => slab.bounds(direction, surface),
+            })
     }
 
-    /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps,
-    /// and where it meets again a surface that it did not follow over a steep facet.
+    /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps.
     pub(crate) fn layer_goes_on(&self, slab: &Slab, cell: CellId, k: usize, next: CellId) -> bool {
-        if !slab.is_shell() {
-            return true;
-        }
         let corners = self.map.triangle(cell);
         let middle = corners[k].midpoint(corners[(k + 1) % 3]);
-        let [one, other] = [cell, next].map(|c| {
-            let surface = self.surface_in(slab, c, middle);
-            let (near, _) = self.bounds_in(slab, c, middle);
-            [near, slab.shell_backing(surface, 0.0)]
-        });
-        one.iter().zip(other).all(|(a, b)| (a - b).abs() < JUMP_MM)
+        let depth = |c: CellId| slab.shell_backing(self.surface_in(slab, c, middle), 0.0);
+        !slab.is_shell() || (depth(cell) - depth(next)).abs() < JUMP_MM
     }
 
     /// Where the ray `q` meets a layer's datum, in the plane that the support is in a cell; and where it leaves the wall behind, if

@@ -11,10 +11,12 @@ use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
 use pillarforest::formats::{NamedMesh, read_bodies};
+use pillarforest::geom::to_segment;
 use pillarforest::index::VertexId;
 use pillarforest::kinds::ReliefKind;
 use pillarforest::mesh::TriMesh;
 use pillarforest::scene::{self, Scene};
+use pillarforest::support::{Support, SupportKind};
 use pillarforest::view::View;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -561,6 +563,30 @@ struct Looked {
     own: Hits,
 }
 
+/// Where a ray that meets a pillar with corners at `depth`, on a side turned from it by more than 70 degrees, meets the planes of those that
+/// are not; the nearest.
+fn before_corner(support: &Support, eye: DVec3, direction: DVec3, depth: f64) -> Option<f64> {
+    let SupportKind::Pillar { profile, round, .. } = &support.kind else {
+        return None;
+    };
+    let (o, way) = (eye.truncate(), direction.truncate());
+    let side = |k: usize| (profile[k], profile[(k + 1) % profile.len()]);
+    let outward = |k: usize| -(side(k).1 - side(k).0).perp().normalize();
+    let facing = |k: usize| {
+        let middle = side(k).0.midpoint(side(k).1);
+        (o - middle).normalize().dot(outward(k))
+    };
+    let met = |k: usize| outward(k).dot(side(k).0 - o) / outward(k).dot(way);
+    let hit = (0..profile.len()).min_by(|a, b| {
+        let off = |k: usize| to_segment(o + depth * way, side(k).0, side(k).1);
+        off(*a).total_cmp(&off(*b))
+    })?;
+    let flat = 70f64.to_radians().cos();
+    let fronts = (0..profile.len()).filter(|k| facing(*k) >= flat).map(met);
+    let nearest = fronts.filter(|t| *t > 0.0).reduce(f64::min)?;
+    (!round && facing(hit) < flat).then_some(nearest)
+}
+
 impl Looked {
     fn at(scene: &Scene, view: &View, whole: &TriMesh, parts: &[NamedMesh]) -> Self {
         let target = view.target();
@@ -589,8 +615,13 @@ impl Looked {
     fn layer(&self, scene: &Scene, ray: usize) -> Option<(f64, f64)> {
         let support = scene.supports.get(self.bare.owner[ray] as usize)?;
         let direction = self.raster.direction(ray);
-        let at_model = self.target.depth[ray].is_finite();
-        allowed(support, self.raster.eye, direction, self.bare.depth[ray]).filter(|_| at_model)
+        let (eye, surface) = (self.raster.eye, self.bare.depth[ray]);
+        let (near, far) = allowed(support, eye, direction, surface)?;
+        // Along a side that the eye looks along a layer begins where it does before the sides that look at the eye.
+        let before = before_corner(support, eye, direction, surface)
+            .and_then(|front| allowed(support, eye, direction, front));
+        let near = before.map_or(near, |(before, _)| before.min(near));
+        self.target.depth[ray].is_finite().then_some((near, far))
     }
 
     fn against(&self, scene: &Scene, certificate: &Value) -> Vec<String> {

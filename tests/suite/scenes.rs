@@ -162,7 +162,8 @@ fn every_scene_passes_the_print_checks() {
     for name in buildable() {
         let report = &built(&name).report;
         let checks = report["print"].as_array().unwrap();
-        assert!(checks.len() >= 8, "{name}: {checks:?}");
+        // Slenderness and cores are asked of pillars.
+        assert!(checks.len() >= 6, "{name}: {checks:?}");
         for check in checks {
             assert_eq!(check["ok"], true, "{name}: {check}");
             for figure in ["value_mm", "wanted_mm", "limit_mm"] {
