@@ -69,7 +69,7 @@ impl Contours {
             (l.min(y), h.max(y))
         });
         let row = (high - low) / ROWS as f64;
-        if !(row > 0.0) {
+        if row <= 0.0 {
             return Self::default();
         }
         let mut rows: Vec<Level> = vec![Level::default(); ROWS];

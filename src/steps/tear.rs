@@ -64,7 +64,9 @@ pub fn torn<'a>(
             Ok(opened) => opened,
             // Steps that contradict each other: with fewer tears there are fewer of them. Bounds alone would contradict each other all the
             // more where less is torn.
-            Err(SolveError::Infeasible(rows)) if !last && !rows.iter().all(is_bound) => {
+            Err(SolveError::Infeasible(rows))
+                if !last && !rows.iter().all(|row| is_bound(*row)) =>
+            {
                 given_up += 1;
                 continue;
             }
@@ -145,7 +147,7 @@ fn opened<'a>(
     }
 }
 
-fn is_bound(row: &RowKind) -> bool {
+fn is_bound(row: RowKind) -> bool {
     matches!(row, RowKind::Near(_) | RowKind::Far(_))
 }
 
