@@ -1,7 +1,7 @@
 //! Where models begin and end from side to side, row by row: what a cut between two pillars would leave of them in a strip.
 //!
 //! An upright contour, as letters have them, may run just beside a cut for its whole length. What lies between the two then stands
-//! at the outline of the nearer pillar as a plate, as thin as the strip is narrow.
+//! at the outline of the nearer pillar as a plate, as thin as the strip is narrow; what is left of a flank alone is a knife.
 
 use crate::index::FaceId;
 use crate::mesh::TriMesh;
@@ -15,12 +15,37 @@ const ROWS: usize = 128;
 /// What is nearer in one row hangs together, as a tangent of bearings: three thousandths of a millimetre at 300 mm.
 const JOINED: f64 = 1e-5;
 
-/// The models' contours as one eye sees them, without the flanks that they end in. Bearings are as in [`Subject`](super::subject::Subject).
+/// Where a row meets models, in bearings (or tangents of them): from their outline over what looks at the eye to their outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ModelStretch {
+    outline: [f64; 2],
+    facing: [f64; 2],
+}
+
+impl ModelStretch {
+    /// How thick what is left after `cut` is on average: a flank is a wedge.
+    fn left_after(&self, cut: f64) -> f64 {
+        let (facing, last) = (self.facing[1].max(cut), self.outline[1]);
+        facing - cut + (last - facing) / 2.0
+    }
+
+    /// The same before it.
+    fn left_before(&self, cut: f64) -> f64 {
+        let (facing, first) = (self.facing[0].min(cut), self.outline[0]);
+        cut - facing + (facing - first) / 2.0
+    }
+
+    fn goes_across(&self, cut: f64) -> bool {
+        self.outline[0] < cut && cut < self.outline[1]
+    }
+}
+
+/// The models' contours as one eye sees them. Bearings are as in [`Subject`](super::subject::Subject).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contours {
-    /// First and last bearing of every stretch of every row, by rising first and by rising last bearing.
-    by_first: Vec<[f64; 2]>,
-    by_last: Vec<[f64; 2]>,
+    /// The stretches of all rows, by rising first and by rising last bearing.
+    by_first: Vec<ModelStretch>,
+    by_last: Vec<ModelStretch>,
     /// Height of a row over the distance.
     row: f64,
 }
@@ -33,14 +58,16 @@ struct Level {
 }
 
 impl Level {
-    /// What hangs together, from the first facing face to the last.
-    fn without_flanks(self) -> Vec<[f64; 2]> {
+    /// What hangs together, as far as anything of it faces the eye.
+    fn stretches(self) -> Vec<ModelStretch> {
         let facing = joined(self.facing);
-        let within = |[first, last]: [f64; 2]| {
+        let within = |outline: [f64; 2]| {
+            let [first, last] = outline;
             let from = facing.partition_point(|f| f[1] < first);
             let to = facing.partition_point(|f| f[0] <= last);
             let own = facing.get(from..to)?;
-            Some([own.first()?[0].max(first), own.last()?[1].min(last)])
+            let facing = [own.first()?[0].max(first), own.last()?[1].min(last)];
+            Some(ModelStretch { outline, facing })
         };
         joined(self.all).into_iter().filter_map(within).collect()
     }
@@ -92,11 +119,16 @@ impl Contours {
                 met.facing.extend(stretch.filter(|_| is_facing));
             }
         }
-        let stretches = rows.into_iter().flat_map(Level::without_flanks);
-        let mut by_first: Vec<[f64; 2]> = stretches.map(|s| s.map(f64::atan)).collect();
+        let stretches = rows.into_iter().flat_map(Level::stretches);
+        let mut by_first: Vec<ModelStretch> = stretches
+            .map(|s| ModelStretch {
+                outline: s.outline.map(f64::atan),
+                facing: s.facing.map(f64::atan),
+            })
+            .collect();
         let mut by_last = by_first.clone();
-        by_first.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        by_last.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        by_first.sort_by(|a, b| a.outline[0].total_cmp(&b.outline[0]));
+        by_last.sort_by(|a, b| a.outline[1].total_cmp(&b.outline[1]));
         Self {
             by_first,
             by_last,
@@ -104,20 +136,22 @@ impl Contours {
         }
     }
 
-    /// What goes across a cut and ends less than `width` after it.
+    /// What goes across a cut and is thinner than `width` after it.
     pub(crate) fn after(&self, cut: f64, width: f64) -> Strips {
-        let from = self.by_last.partition_point(|s| s[1] <= cut);
-        let near = self.by_last[from..]
-            .iter()
-            .take_while(|s| s[1] < cut + width);
-        self.strips(near.filter(|s| s[0] < cut).map(|s| s[1] - cut))
+        let from = self.by_last.partition_point(|s| s.outline[1] <= cut);
+        let near = self.by_last[from..].iter();
+        let near = near.take_while(|s| s.outline[1] < cut + 2.0 * width);
+        let left = near.filter(|s| s.goes_across(cut));
+        self.strips(left.map(|s| s.left_after(cut)).filter(|w| *w < width))
     }
 
-    /// What goes across a cut and begins less than `width` before it.
+    /// What goes across a cut and is thinner than `width` before it.
     pub(crate) fn before(&self, cut: f64, width: f64) -> Strips {
-        let from = self.by_first.partition_point(|s| s[0] <= cut - width);
-        let near = self.by_first[from..].iter().take_while(|s| s[0] < cut);
-        self.strips(near.filter(|s| s[1] > cut).map(|s| cut - s[0]))
+        let from = (self.by_first).partition_point(|s| s.outline[0] <= cut - 2.0 * width);
+        let near = self.by_first[from..].iter();
+        let near = near.take_while(|s| s.outline[0] < cut);
+        let left = near.filter(|s| s.goes_across(cut));
+        self.strips(left.map(|s| s.left_before(cut)).filter(|w| *w < width))
     }
 
     fn strips(&self, widths: impl Iterator<Item = f64>) -> Strips {
@@ -187,6 +221,27 @@ mod tests {
                 "{at}"
             );
         }
+    }
+
+    /// A flank of 0.6 mm beside the front that ends at 10 mm: a cut in it leaves a wedge, and one before it that and some of the front.
+    #[test]
+    fn a_flank_is_half_as_thick_as_it_is_wide() {
+        let mut mesh = board([-10.0, 10.0], 30.0);
+        let back = [0.0, 30.0].map(|z| DVec3::new(106.0, 1.06 * 10.6, z));
+        mesh.vertices.extend(back);
+        let flank = TriMesh::new(Vec::new(), [[1, 2, 5], [1, 5, 4]]);
+        mesh.faces.extend(flank.faces);
+        let contours = Contours::new(DVec3::ZERO, DVec2::X, &mesh);
+        let bearing = |mm: f64| (mm / 100.0).atan();
+        for (cut, wanted) in [(10.2, 0.2), (9.9, 0.4)] {
+            let found = 100.0 * contours.after(bearing(cut), bearing(0.5)).width;
+            // Perspective lowers the flank's far edge, so that the highest rows meet less of it.
+            assert!((found - wanted).abs() < 0.02, "{cut}: {found}");
+        }
+        assert_eq!(
+            contours.after(bearing(9.7), bearing(0.5)),
+            Strips::default()
+        );
     }
 
     #[test]
