@@ -7,8 +7,8 @@ mod engine;
 mod mutate;
 mod targets;
 
-pub(crate) use engine::asked;
 use engine::{Failure, fuzzed, replayed};
+pub(crate) use engine::{asked, files, hash};
 use targets::TARGETS;
 
 /// Of all kept inputs.

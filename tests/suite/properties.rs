@@ -5,7 +5,7 @@
 //! `FUZZ_SEED` for others.
 
 use crate::dense::{Hits, Raster, allowed};
-use crate::fuzz::asked;
+use crate::fuzz::{asked, files, hash};
 use crate::shapes::{CUBE_FACES, ball, ring, wavy};
 use glam::{DVec2, DVec3};
 use pillarforest::compile::{self, Build};
@@ -24,9 +24,10 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::str::from_utf8;
 
 /// Scenes of an ordinary run of the tests, of either kind.
 const CASES: u32 = 6;
@@ -69,14 +70,32 @@ struct Post {
 }
 
 #[derive(Clone, Debug)]
-struct Draft {
-    posts: Vec<Post>,
-    lookers: Vec<Looker>,
+struct Choices {
     front: f64,
     back: f64,
     energy: u8,
     ordering: bool,
     contested: u8,
+}
+
+/// What a scene says besides places, with layers of such fronts.
+fn choices(front: Range<f64>) -> impl Strategy<Value = Choices> {
+    (front, 0.1..1.0, 0u8..4, prop::bool::weighted(0.8), 0u8..3).prop_map(
+        |(front, back, energy, ordering, contested)| Choices {
+            front,
+            back,
+            energy,
+            ordering,
+            contested,
+        },
+    )
+}
+
+#[derive(Clone, Debug)]
+struct Draft {
+    posts: Vec<Post>,
+    lookers: Vec<Looker>,
+    choices: Choices,
     base: bool,
     /// Arc-minutes: narrower gaps are not told.
     seen: u8,
@@ -119,32 +138,22 @@ fn wild() -> impl Strategy<Value = Draft> {
     (
         prop::collection::vec(post, 2..7),
         prop::collection::vec(looker, 1..4),
-        0.5..4.0,
-        0.1..1.0,
-        0u8..4,
-        prop::bool::weighted(0.8),
-        0u8..3,
+        choices(0.5..4.0),
         prop::bool::weighted(0.9),
     )
-        .prop_map(
-            |(mut posts, lookers, front, back, energy, ordering, contested, base)| {
-                for (k, post) in posts.iter_mut().enumerate() {
-                    post.at.0 += 12.0 * ((k % 3) as f64 - 1.0);
-                    post.at.1 += 12.0 * ((k / 3) as f64 - 0.5);
-                }
-                Draft {
-                    posts,
-                    lookers,
-                    front,
-                    back,
-                    energy,
-                    ordering,
-                    contested,
-                    base,
-                    seen: 0,
-                }
-            },
-        )
+        .prop_map(|(mut posts, lookers, choices, base)| {
+            for (k, post) in posts.iter_mut().enumerate() {
+                post.at.0 += 12.0 * ((k % 3) as f64 - 1.0);
+                post.at.1 += 12.0 * ((k / 3) as f64 - 0.5);
+            }
+            Draft {
+                posts,
+                lookers,
+                choices,
+                base,
+                seen: 0,
+            }
+        })
 }
 
 fn round(radius: f64) -> String {
@@ -168,69 +177,58 @@ fn aimed() -> impl Strategy<Value = Draft> {
         prop::collection::vec(looker, 1..4),
         0.0..360.0_f64,
         (0u8..3, 3.0..4.5_f64, prop::bool::weighted(0.2)),
-        (1.0..4.0, 0.1..1.0),
-        0u8..4,
-        prop::bool::weighted(0.8),
-        0u8..3,
+        choices(1.0..4.0),
     )
-        .prop_map(
-            |(views, first, (kind, size, surface), (front, back), energy, ordering, contested)| {
-                let (mut posts, mut lookers) = (Vec::new(), Vec::new());
-                let out = match views.len() {
-                    1 => 0.0,
-                    2 => 16.0,
-                    _ => 30.0,
-                };
-                for (v, &(lean, distance, height, (body, largest, lift))) in
-                    views.iter().enumerate()
-                {
-                    let turn = first + lean + 360.0 / views.len() as f64 * v as f64;
-                    let ahead = DVec2::from_angle(turn.to_radians());
-                    let at = out * ahead;
-                    lookers.push(Looker {
-                        turn,
-                        distance,
-                        height,
-                        bodies: vec![Body {
-                            kind: body,
-                            largest,
-                            at: (at.x, at.y, lift),
-                        }],
-                    });
-                    let pitch = 1.5 * size;
-                    let columns = (1.2 * largest / pitch).ceil() as i32 + 2;
-                    posts.extend((0..columns).map(|k| {
-                        let side = (f64::from(k) - f64::from(columns - 1) / 2.0) * pitch;
-                        let row = if k % 2 == 0 { size } else { -size };
-                        let place = at + side * ahead.perp() + row * ahead;
-                        Post {
-                            shape: match kind {
-                                0 => round(size),
-                                1 => rectangle(2.0 * size, 1.6 * size, turn + 90.0),
-                                _ => format!(
-                                    "Polygon(sides: 8, radius: {:.3}, turn: {turn:.3})",
-                                    1.08 * size
-                                ),
-                            },
-                            at: (place.x, place.y),
-                            height: lift + largest + 8.0,
-                            surface,
-                        }
-                    }));
-                }
-                Draft {
-                    posts,
-                    lookers,
-                    front,
-                    back,
-                    energy,
-                    ordering,
-                    contested,
-                    base: true,
-                    seen: 1,
-                }
-            },
-        )
+        .prop_map(|(views, first, (kind, size, surface), choices)| {
+            let (mut posts, mut lookers) = (Vec::new(), Vec::new());
+            let out = match views.len() {
+                1 => 0.0,
+                2 => 16.0,
+                _ => 30.0,
+            };
+            for (v, &(lean, distance, height, (body, largest, lift))) in views.iter().enumerate() {
+                let turn = first + lean + 360.0 / views.len() as f64 * v as f64;
+                let ahead = DVec2::from_angle(turn.to_radians());
+                let at = out * ahead;
+                lookers.push(Looker {
+                    turn,
+                    distance,
+                    height,
+                    bodies: vec![Body {
+                        kind: body,
+                        largest,
+                        at: (at.x, at.y, lift),
+                    }],
+                });
+                let pitch = 1.5 * size;
+                let columns = (1.2 * largest / pitch).ceil() as i32 + 2;
+                posts.extend((0..columns).map(|k| {
+                    let side = (f64::from(k) - f64::from(columns - 1) / 2.0) * pitch;
+                    let row = if k % 2 == 0 { size } else { -size };
+                    let place = at + side * ahead.perp() + row * ahead;
+                    Post {
+                        shape: match kind {
+                            0 => round(size),
+                            1 => rectangle(2.0 * size, 1.6 * size, turn + 90.0),
+                            _ => format!(
+                                "Polygon(sides: 8, radius: {:.3}, turn: {turn:.3})",
+                                1.08 * size
+                            ),
+                        },
+                        at: (place.x, place.y),
+                        height: lift + largest + 8.0,
+                        surface,
+                    }
+                }));
+            }
+            Draft {
+                posts,
+                lookers,
+                choices,
+                base: true,
+                seen: 1,
+            }
+        })
 }
 
 impl Draft {
@@ -272,22 +270,28 @@ impl Draft {
                 at.0, at.1
             );
         }
-        let energy = match self.energy {
-            0 => format!("Curvature(ordering: {})", self.ordering),
-            1 => format!("Normal(steps: Never, ordering: {})", self.ordering),
-            _ => format!("Normal(ordering: {})", self.ordering),
+        let Choices {
+            front,
+            back,
+            ordering,
+            ..
+        } = self.choices;
+        let energy = match self.choices.energy {
+            0 => format!("Curvature(ordering: {ordering})"),
+            1 => format!("Normal(steps: Never, ordering: {ordering})"),
+            _ => format!("Normal(ordering: {ordering})"),
         };
-        let contested = ["First", "Largest", "Error"][self.contested as usize];
+        let contested = ["First", "Largest", "Error"][self.choices.contested as usize];
         let base = if self.base {
             "Disc(facets: 24)"
         } else {
             "None"
         };
         format!(
-            "(\n  seen: {},\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {:.3}, back: {:.3}),\n  \
+            "(\n  seen: {},\n  models: [\n{models}  ],\n  views: [\n{views}  ],\n  pillars: [\n{pillars}  ],\n  depth: (front: {front:.3}, back: {back:.3}),\n  \
              energy: {energy},\n  contested: {contested},\n  base: {base},\n  output: (forest_glb: false, plan: false, views: false, \
              lights: false, camouflage: false, picture_size: 64),\n)\n",
-            self.seen, self.front, self.back
+            self.seen
         )
     }
 }
@@ -403,23 +407,19 @@ fn kept_scenes() -> PathBuf {
 /// What is wrong with a scene, which is in the corpus from now on.
 fn kept((draft, why): &(Draft, String)) -> String {
     let text = draft.text();
-    let mut hasher = DefaultHasher::new();
-    text.hash(&mut hasher);
-    let path = kept_scenes().join(format!("wrong-{:016x}.ron", hasher.finish()));
+    let path = kept_scenes().join(format!("wrong-{:016x}.ron", hash(text.as_bytes())));
     fs::write(&path, text).expect("a kept scene");
     format!("{}: {why}", path.display())
 }
 
 #[test]
 fn kept_scenes_never_panic_and_their_certificates_hold() {
-    let entries = fs::read_dir(kept_scenes()).expect("kept scenes");
-    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
-    paths.sort();
-    let wrong = paths.iter().filter_map(|path| {
-        let text = fs::read_to_string(path).expect("a scene");
-        let why = tried(&text).err()?;
-        Some(format!("{}: {why}", path.display()))
-    });
+    let wrong = files(&kept_scenes())
+        .into_iter()
+        .filter_map(|(path, text)| {
+            let why = tried(from_utf8(&text).expect("a scene")).err()?;
+            Some(format!("{}: {why}", path.display()))
+        });
     let wrong: Vec<String> = wrong.collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }

@@ -76,7 +76,8 @@ fn kept(target: &Target) -> Vec<(PathBuf, Vec<u8>)> {
     inputs
 }
 
-fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+/// All files of a folder, by name.
+pub(crate) fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
     paths.sort();
@@ -238,7 +239,7 @@ fn answer(target: &Target, bytes: &[u8]) -> u64 {
     hash(text.as_bytes())
 }
 
-fn hash(bytes: &[u8]) -> u64 {
+pub(crate) fn hash(bytes: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
     hasher.finish()
