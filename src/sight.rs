@@ -145,6 +145,6 @@ fn aside(image: &Image, groups: &Groups) -> Vec<(SupportId, Elsewhere)> {
             _ => Elsewhere::BesideModels,
         })
     };
-    let all = (0..image.field.supports.len()).map(SupportId::new);
+    let all = SupportId::all(image.field.supports.len());
     all.filter_map(|id| Some((id, why(id)?))).collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::certify::coverage::{Coverage, coverage};
 use crate::diag::Diagnostic;
+use crate::geom::SQUARE_ARCMIN;
 use crate::index::{CellId, SupportId};
 use crate::kinds::Optimised;
 use crate::scene::Scene;
@@ -61,7 +62,7 @@ pub(crate) fn optimise<'a>(
 
 /// Warnings of free parts that an eye sees before a support by themselves, so that nothing holds them to it.
 pub(crate) fn unheld(sights: &[Sight], scene: &Scene) -> Vec<Diagnostic> {
-    let least = (scene.seen_arcmin / 60.0).to_radians().powi(2);
+    let least = scene.seen_arcmin.powi(2) / SQUARE_ARCMIN;
     let warning = |sight: &Sight| {
         let groups = sight.groups.unheld();
         let groups = groups.iter().map(|g| &sight.groups.groups[*g]);

@@ -68,8 +68,7 @@ impl Groups {
     /// Groups without any bound, rising: all of their vertices are free.
     pub fn unheld(&self) -> Vec<GroupId> {
         let mut held = vec![false; self.groups.len()];
-        self.bounds.iter().for_each(|b| held[b.group.at()] = true);
-        let all = (0..held.len()).map(GroupId::new);
-        all.filter(|g| !held[g.at()]).collect()
+        self.bounds.iter().for_each(|b| held[b.group] = true);
+        GroupId::all(held.len()).filter(|g| !held[*g]).collect()
     }
 }

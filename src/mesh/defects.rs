@@ -167,8 +167,8 @@ impl fmt::Display for Defect {
 /// Pairs of intersecting faces are counted up to here: a mesh with that many is hopeless, and one with all faces in one
 /// place has quadratically many.
 const MAX_PAIRS: usize = 20_000;
-/// Comparisons of faces in a mesh that has other defects already, or is only looked at, for each face and besides: a sound mesh needs some twenty for each,
-/// while thousands of faces on one edge or in one place need the square of their number.
+/// Comparisons of faces in a mesh that has other defects already, or is only looked at, for each face and besides: a sound mesh needs
+/// some twenty for each, while thousands of faces on one edge or in one place need the square of their number.
 const COMPARISONS: [u64; 2] = [50, 20_000_000];
 
 /// All defects of a welded mesh, in the order of [`DefectKind`]; empty for a printable one.

@@ -126,6 +126,7 @@ pub struct Care {
     pub fins: [f64; 2],
     /// Room between a relief, wherever it lies in its layer, and solids other than its pillar.
     pub reliefs: f64,
+    /// What cuts may leave beside contours.
     pub plates: Plates,
 }
 
@@ -160,13 +161,15 @@ impl Care {
     }
 
     /// For layouts made by hand: what a build can just do with. Reliefs of neighbours may meet in a cut.
-    pub const GIVEN: Self = Self {
-        overlap: 0.02,
-        narrowest: 0.4,
-        fins: [0.0, 0.0],
-        reliefs: 0.0,
-        plates: Plates::ANY,
-    };
+    pub fn given(plates: Plates) -> Self {
+        Self {
+            overlap: 0.02,
+            narrowest: 0.4,
+            fins: [0.0, 0.0],
+            reliefs: 0.0,
+            plates,
+        }
+    }
 }
 
 /// Ground on which pillars may stand.

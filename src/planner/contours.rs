@@ -15,37 +15,46 @@ const ROWS: usize = 128;
 /// What is nearer in one row hangs together, as a tangent of bearings: three thousandths of a millimetre at 300 mm.
 const JOINED: f64 = 1e-5;
 
-/// Where a row meets models, in bearings (or tangents of them): from their outline over what looks at the eye to their outline.
+/// A stretch of one row that models fill, in bearings (or tangents of them): from their outline over what looks at the eye to the outline
+/// of the other side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ModelStretch {
-    outline: [f64; 2],
+    begins: f64,
     facing: [f64; 2],
+    ends: f64,
 }
 
 impl ModelStretch {
+    fn mapped(self, map: impl Fn(f64) -> f64) -> Self {
+        Self {
+            begins: map(self.begins),
+            facing: self.facing.map(&map),
+            ends: map(self.ends),
+        }
+    }
+
+    /// With left and right exchanged.
+    fn mirrored(self) -> Self {
+        Self {
+            begins: -self.ends,
+            facing: [-self.facing[1], -self.facing[0]],
+            ends: -self.begins,
+        }
+    }
+
     /// How thick what is left after `cut` is on average: a flank is a wedge.
     fn left_after(&self, cut: f64) -> f64 {
-        let (facing, last) = (self.facing[1].max(cut), self.outline[1]);
-        facing - cut + (last - facing) / 2.0
-    }
-
-    /// The same before it.
-    fn left_before(&self, cut: f64) -> f64 {
-        let (facing, first) = (self.facing[0].min(cut), self.outline[0]);
-        cut - facing + (facing - first) / 2.0
-    }
-
-    fn goes_across(&self, cut: f64) -> bool {
-        self.outline[0] < cut && cut < self.outline[1]
+        let facing = self.facing[1].max(cut);
+        facing - cut + (self.ends - facing) / 2.0
     }
 }
 
 /// The models' contours as one eye sees them. Bearings are as in [`Subject`](super::subject::Subject).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contours {
-    /// The stretches of all rows, by rising first and by rising last bearing.
-    by_first: Vec<ModelStretch>,
-    by_last: Vec<ModelStretch>,
+    /// The stretches of all rows, by rising ends; and the same with left and right exchanged.
+    stretches: Vec<ModelStretch>,
+    mirrored: Vec<ModelStretch>,
     /// Height of a row over the distance.
     row: f64,
 }
@@ -61,13 +70,15 @@ impl Level {
     /// What hangs together, as far as anything of it faces the eye.
     fn stretches(self) -> Vec<ModelStretch> {
         let facing = joined(self.facing);
-        let within = |outline: [f64; 2]| {
-            let [first, last] = outline;
-            let from = facing.partition_point(|f| f[1] < first);
-            let to = facing.partition_point(|f| f[0] <= last);
+        let within = |[begins, ends]: [f64; 2]| {
+            let from = facing.partition_point(|f| f[1] < begins);
+            let to = facing.partition_point(|f| f[0] <= ends);
             let own = facing.get(from..to)?;
-            let facing = [own.first()?[0].max(first), own.last()?[1].min(last)];
-            Some(ModelStretch { outline, facing })
+            Some(ModelStretch {
+                begins,
+                facing: [own.first()?[0].max(begins), own.last()?[1].min(ends)],
+                ends,
+            })
         };
         joined(self.all).into_iter().filter_map(within).collect()
     }
@@ -120,47 +131,43 @@ impl Contours {
             }
         }
         let stretches = rows.into_iter().flat_map(Level::stretches);
-        let mut by_first: Vec<ModelStretch> = stretches
-            .map(|s| ModelStretch {
-                outline: s.outline.map(f64::atan),
-                facing: s.facing.map(f64::atan),
-            })
-            .collect();
-        let mut by_last = by_first.clone();
-        by_first.sort_by(|a, b| a.outline[0].total_cmp(&b.outline[0]));
-        by_last.sort_by(|a, b| a.outline[1].total_cmp(&b.outline[1]));
+        let stretches: Vec<ModelStretch> = stretches.map(|s| s.mapped(f64::atan)).collect();
+        let mirrored = stretches.iter().map(|s| s.mirrored()).collect();
         Self {
-            by_first,
-            by_last,
+            stretches: by_ends(stretches),
+            mirrored: by_ends(mirrored),
             row,
         }
     }
 
     /// What goes across a cut and is thinner than `width` after it.
     pub(crate) fn after(&self, cut: f64, width: f64) -> Strips {
-        let from = self.by_last.partition_point(|s| s.outline[1] <= cut);
-        let near = self.by_last[from..].iter();
-        let near = near.take_while(|s| s.outline[1] < cut + 2.0 * width);
-        let left = near.filter(|s| s.goes_across(cut));
-        self.strips(left.map(|s| s.left_after(cut)).filter(|w| *w < width))
+        self.strips(&self.stretches, cut, width)
     }
 
     /// What goes across a cut and is thinner than `width` before it.
     pub(crate) fn before(&self, cut: f64, width: f64) -> Strips {
-        let from = (self.by_first).partition_point(|s| s.outline[0] <= cut - 2.0 * width);
-        let near = self.by_first[from..].iter();
-        let near = near.take_while(|s| s.outline[0] < cut);
-        let left = near.filter(|s| s.goes_across(cut));
-        self.strips(left.map(|s| s.left_before(cut)).filter(|w| *w < width))
+        self.strips(&self.mirrored, -cut, width)
     }
 
-    fn strips(&self, widths: impl Iterator<Item = f64>) -> Strips {
-        let (rows, sum) = widths.fold((0, 0.0), |(rows, sum), w| (rows + 1, sum + w));
+    fn strips(&self, stretches: &[ModelStretch], cut: f64, width: f64) -> Strips {
+        let from = stretches.partition_point(|s| s.ends <= cut);
+        // What is left is at least half as thick as it is wide.
+        let near = stretches[from..].iter();
+        let near = near.take_while(|s| s.ends < cut + 2.0 * width);
+        let left = near.filter(|s| s.begins < cut).map(|s| s.left_after(cut));
+        let thin = left.filter(|w| *w < width);
+        let (rows, sum) = thin.fold((0, 0.0), |(rows, sum), w| (rows + 1, sum + w));
         Strips {
             height: f64::from(rows) * self.row,
             width: sum / f64::from(rows.max(1)),
         }
     }
+}
+
+fn by_ends(mut stretches: Vec<ModelStretch>) -> Vec<ModelStretch> {
+    stretches.sort_by(|a, b| a.ends.total_cmp(&b.ends));
+    stretches
 }
 
 /// Where a triangle meets the level `y`.

@@ -2,7 +2,7 @@
 
 use super::arrange::GRIDS;
 use super::field::SupportField;
-use super::map::{ViewMap, ViewMapError};
+use super::map::{Cell, ViewMap, ViewMapError};
 use super::seen::view_map;
 use super::steep::Fronts;
 use super::target::Target;
@@ -77,16 +77,25 @@ impl<'a> Image<'a> {
             return slab.bounds(direction, Hits { first, leaves });
         }
         // At the outline the ray may just miss the support: the datum plane is where a pillar's surface ends there.
-        match field.facet_of(support, plane.eye, direction) {
-            Some((facet, surface)) => self.bounds(slab, facet, direction, Hits::at(surface)),
-            None => slab.bounds(direction, Hits::at(on_plane)),
-        }
+        let (facet, surface) = field.facet_of(support, plane.eye, direction).unzip();
+        self.bounds(
+            slab,
+            facet,
+            direction,
+            Hits::at(surface.unwrap_or(on_plane)),
+        )
     }
 
     /// Smallest and largest depth of a layer on a facet: it begins before that, or before the facet whose plane it keeps to.
-    fn bounds(&self, slab: &Slab, facet: FacetId, direction: DVec3, hits: Hits) -> (f64, f64) {
+    fn bounds(
+        &self,
+        slab: &Slab,
+        facet: Option<FacetId>,
+        direction: DVec3,
+        hits: Hits,
+    ) -> (f64, f64) {
         let (near, far) = slab.bounds(direction, hits);
-        let front = self.fronts.before(facet).map(|front| {
+        let front = facet.and_then(|f| self.fronts.before(f)).map(|front| {
             let eye = self.map.plane.eye;
             let surface = self.field.facet_depth(front, eye, direction);
             slab.bounds(direction, Hits::at(surface)).0
@@ -102,15 +111,10 @@ impl<'a> Image<'a> {
         let q = self.map.triangle(cell)[k];
         let direction = self.map.plane.direction(q);
         let surface = self.surface_in(slab, cell, q);
-        let facet = self.map.cells[cell]
-            .facet
-            .filter(|_| slab.follows_surface());
+        let Cell { facet, outline, .. } = self.map.cells[cell];
         slab.on_datum(direction, surface)
-            .filter(|_| self.map.cells[cell].outline[k])
-            .unwrap_or_else(|| match facet {
-                Some(facet) => self.bounds(slab, facet, direction, surface),
-                None => slab.bounds(direction, surface),
-            })
+            .filter(|_| outline[k])
+            .unwrap_or_else(|| self.bounds(slab, facet, direction, surface))
     }
 
     /// Whether a layer goes on across side `k` of a cell into the cell `next` beyond. Where one fold of a surface hides another it jumps.

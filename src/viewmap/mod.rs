@@ -4,7 +4,8 @@
 //! Gives a triangulation of the image in which every cell lies in one model face (the front-most, or none) and on one
 //! support (the first hit, or none), with solid angles. Promises: cells are counter-clockwise, share their points,
 //! do not overlap and cover a rectangle around the model; no cell is thinner than [`THINNEST_MM`] at the model's distance
-//! except where the triangulation cannot give way. Does *not* promise anything about depth.
+//! except where the triangulation cannot give way. Does *not* promise anything about depth, but knows where a layer lies on a ray, and
+//! what it does before facets that the eye looks along ([`steep`]).
 //!
 //! The edges of every face that is seen at all and the seen parts of the supports' outlines (and edges, where a layer follows
 //! their surface, so that every cell lies on one of its planes) are constraints of a

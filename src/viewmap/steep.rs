@@ -5,6 +5,7 @@
 //! of the facet from where it came. Its back is still the surface's: there is only more room.
 
 use super::field::SupportField;
+use crate::geom::height;
 use crate::index::{FaceId, FacetId};
 use crate::mesh::face_neighbours;
 use crate::support::{Datum, Support, SupportKind};
@@ -30,15 +31,12 @@ impl Fronts {
         }
         let mesh = &field.mesh;
         let least = STEEP_DEG.to_radians().cos();
-        let sight = |f: FaceId| {
-            let corners = mesh.corners(f);
-            (corners[0] + corners[1] + corners[2]) / 3.0 - eye
-        };
+        let sight = |f: FaceId| mesh.corners(f).into_iter().sum::<DVec3>() / 3.0 - eye;
         // How much a face looks at the eye: the cosine of the angle.
         let facing = |f: FaceId| -mesh.normal(f).dot(sight(f).normalize());
         // Where a surface falls by less over a facet than the layer is thick, faces have room.
         let is_steep = |f: &FaceId| {
-            let falls = narrowest(mesh.corners(*f)) * (1.0 - facing(*f).powi(2)).sqrt();
+            let falls = height(mesh.corners(*f)) * (1.0 - facing(*f).powi(2)).sqrt();
             let thickness = thickness(&field.supports[field.owner[*f]]);
             facing(*f) < least && thickness.is_some_and(|t| falls > t)
         };
@@ -88,11 +86,4 @@ fn thickness(support: &Support) -> Option<f64> {
     let layer = support.layer.filter(|l| l.datum() == Datum::Surface)?;
     let has_corners = matches!(support.kind, SupportKind::Pillar { round: false, .. });
     has_corners.then(|| layer.front + layer.back())
-}
-
-/// The least height of a triangle.
-fn narrowest(corners: [DVec3; 3]) -> f64 {
-    let side = |k: usize| corners[(k + 1) % 3] - corners[k];
-    let longest = (0..3).map(|k| side(k).length()).fold(0.0, f64::max);
-    side(0).cross(side(1)).length() / longest
 }

@@ -14,19 +14,17 @@ use glam::DVec2;
 
 /// Why a view has no sight.
 pub fn unseen(view: &str, supports: &[Support], found: &Unseen) -> Vec<Diagnostic> {
-    let failed = |text: &str| vec![Diagnostic::error(format!("view \"{view}\": {text}"))];
+    let failed = |text: &str| Diagnostic::error(format!("view \"{view}\": {text}"));
     match found {
         Unseen::Image(ViewMapError::Triangulation(q)) => {
-            let [right, up] = [q.x, q.y].map(|tangent| tangent.atan().to_degrees());
-            let place = beside_sight(right, up);
-            let text = format!("{} {place}", ViewMapError::Triangulation(*q));
+            let text = format!("{} {}", ViewMapError::Triangulation(*q), towards(*q));
             let several = match supports.iter().filter(|s| s.layer.is_some()).count() {
                 1 => "parts of its models",
                 _ => "supports, or parts of its models,",
             };
-            failed(&text).into_iter().map(|d| d.help(format!("{several} that lie on each other there: move them apart, or leave one of them out"))).collect()
+            vec![failed(&text).help(format!("{several} that lie on each other there: move them apart, or leave one of them out"))]
         }
-        Unseen::Image(error) => failed(&error.to_string()),
+        Unseen::Image(error) => vec![failed(&error.to_string())],
         Unseen::Beside(support, angle) => vec![Diagnostic::error(format!(
             "view \"{view}\": a face of its models that {} carries reaches {:.0} degrees beside it as the eye sees them, and beyond 90 degrees no relief can lie",
             supports[*support].name,
@@ -190,6 +188,11 @@ fn support_of<'a>(sight: &'a Sight, bound: &Bound) -> &'a Support {
 /// Where an eye sees the bound, by the vertex with the largest share in it.
 fn beside_sight_of(sight: &Sight, bound: &Bound) -> String {
     let terms = bound.anchor.terms().max_by(|a, b| a.1.total_cmp(&b.1));
-    let q = terms.map_or(DVec2::ZERO, |(v, _)| sight.image.target.image[v]);
-    beside_sight(q.x.atan().to_degrees(), q.y.atan().to_degrees())
+    towards(terms.map_or(DVec2::ZERO, |(v, _)| sight.image.target.image[v]))
+}
+
+/// A point of the image as a direction.
+fn towards(q: DVec2) -> String {
+    let [right, up] = q.to_array().map(|tangent| tangent.atan().to_degrees());
+    beside_sight(right, up)
 }

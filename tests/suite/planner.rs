@@ -554,7 +554,7 @@ fn a_layout_out_of_order_is_mended_with_few_changes() {
         })
         .collect();
     let own = Brief {
-        care: Care::GIVEN,
+        care: Care::given(Plates::ANY),
         gap: 0.2,
         given: given.clone(),
         ..brief(3, disc(75.0), 60_000)

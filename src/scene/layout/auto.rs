@@ -86,10 +86,7 @@ pub(crate) fn mending(entries: &[PillarEntry], region: Vec<DVec2>, around: &Arou
     let standing: usize = entries.iter().map(|e| e.spots.len()).sum();
     let mut brief = Brief {
         region: Region::new(region),
-        care: Care {
-            plates: plates(around.making),
-            ..Care::GIVEN
-        },
+        care: Care::given(plates(around.making)),
         shapes: Vec::new(),
         allowed: 0,
         // What is printable as it stands need not move.
