@@ -97,7 +97,7 @@ pub(crate) fn all(groups: &Groups, keeping: &Keeping) -> Conditions {
     let conditions: Vec<Condition> = orders(&keeping.orders.all).collect();
     let is_first = |c: &Condition| match c.kind {
         RowKind::Near(b) | RowKind::Far(b) => (b as usize) < groups.needed,
-        RowKind::Order(_) | RowKind::Step(_) => false,
+        RowKind::Order(_) | RowKind::Step(_) | RowKind::Scale(_) => false,
     };
     let (needed, follow): (Vec<Condition>, Vec<Condition>) = bounds.partition(is_first);
     let (nearest, others) = conditions.split_at(keeping.orders.nearest);

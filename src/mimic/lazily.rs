@@ -18,14 +18,14 @@ pub(crate) type DepthsAndScales = (Vec<f64>, Vec<f64>);
 /// How an energy's unknowns relate to depths.
 pub(crate) struct Meaning<'a> {
     pub depths: &'a dyn Fn(&[f64]) -> DepthsAndScales,
-    /// The row of a condition's tangents at the depths given.
-    pub tangent: &'a dyn Fn(&Condition, &[f64]) -> Option<Row>,
+    /// The row of a condition's tangents at the depths and scales given.
+    pub tangent: &'a dyn Fn(&Condition, &DepthsAndScales) -> Option<Row>,
     /// Of the view's image plane.
     pub focal: f64,
 }
 
 impl Meaning<'_> {
-    fn breaks(&self, c: &Condition, s: &[f64], mu: &[f64]) -> bool {
+    fn breaks(&self, c: &Condition, (s, mu): &DepthsAndScales) -> bool {
         c.is_broken(s, mu, BROKEN / self.focal)
     }
 }
@@ -47,10 +47,10 @@ pub(crate) fn solve_lazily(
     let (mut rounds, before) = (0, program.rows.len());
     let mut urgent = conditions.urgent;
     while rounds < conditions.rounds {
-        let (s, mu) = (meaning.depths)(&solution.u);
+        let at = (meaning.depths)(&solution.u);
         let tangents = |list: &[Condition]| -> Vec<Row> {
-            let broken = list.iter().filter(|c| meaning.breaks(c, &s, &mu));
-            broken.filter_map(|c| (meaning.tangent)(c, &s)).collect()
+            let broken = list.iter().filter(|c| meaning.breaks(c, &at));
+            broken.filter_map(|c| (meaning.tangent)(c, &at)).collect()
         };
         let mut rows = tangents(&conditions.all[..urgent]);
         if rows.is_empty() {
@@ -74,9 +74,9 @@ pub(crate) fn solve_lazily(
             Err(error) => return Err(error),
         }
     }
-    let (s, mu) = (meaning.depths)(&solution.u);
+    let at = (meaning.depths)(&solution.u);
     let all = conditions.all.iter();
-    let broken = all.filter(|c| meaning.breaks(c, &s, &mu));
+    let broken = all.filter(|c| meaning.breaks(c, &at));
     let solved = Solved {
         broken: broken.count(),
         rounds: solution.solved.rounds + rounds,

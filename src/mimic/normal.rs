@@ -9,7 +9,7 @@ use super::conditions::{self, Condition, OnGroup, log_tangent};
 use super::depths::{Depths, scales, seen_solid_angles, typical_width};
 use super::energy::{FaceWeight, NormalOptions};
 use super::keeping::{Keeping, TakingPart};
-use super::lazily::{MARGIN, Meaning, solve_lazily};
+use super::lazily::{DepthsAndScales, MARGIN, Meaning, solve_lazily};
 use super::opening::{Opening, Tie};
 use super::program::{Program, Quadratic, Row, RowKind, gathered, mean_diagonal};
 use super::solve::{Method, SolveError, Solved};
@@ -52,11 +52,12 @@ pub(crate) fn depths(
     let scaled = opening.is_none();
     let variables = index.count + if scaled { groups.groups.len() } else { 0 };
     let faces = Faces::new(options.weight, image, &seen, &taking_part, opening);
-    let tangent = |c: &Condition, s: &[f64]| {
+    // In log depth scales are linear: rows are the same wherever these touch.
+    let tangent = |c: &Condition, (s, _): &DepthsAndScales| {
         let harder = c.tightened(MARGIN * unit);
         index.tangent(&harder, s, unit, scaled)
     };
-    let start = index.start(opening);
+    let start = (index.start(opening), vec![1.0; groups.groups.len()]);
     let mut first: Vec<Row> = conditions.all[..conditions.rows]
         .iter()
         .filter_map(|c| tangent(c, &start))

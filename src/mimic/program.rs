@@ -13,6 +13,8 @@ pub enum RowKind {
     Order(u32),
     /// A step of a cut mesh (by index).
     Step(u32),
+    /// The least scale of a group (by index).
+    Scale(u32),
 }
 
 /// `sum of coefficient * u[variable] <= limit`.

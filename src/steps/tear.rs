@@ -155,7 +155,7 @@ fn is_bound(row: RowKind) -> bool {
 fn steps_among(rows: &[RowKind]) -> Vec<usize> {
     let number = |row: &RowKind| match row {
         RowKind::Step(i) => Some(*i as usize),
-        RowKind::Near(_) | RowKind::Far(_) | RowKind::Order(_) => None,
+        RowKind::Near(_) | RowKind::Far(_) | RowKind::Order(_) | RowKind::Scale(_) => None,
     };
     rows.iter().filter_map(number).collect()
 }

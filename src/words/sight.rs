@@ -127,7 +127,8 @@ pub fn unheld(sight: &Sight, on: &[SupportId]) -> Diagnostic {
 pub fn unsolved(sight: &Sight, error: &SolveError) -> Diagnostic {
     let view = sight.name();
     let kind = match error {
-        SolveError::Infeasible(rows) => rows.first(),
+        // Least scales keep a contradiction from being solved at the eye; they are no part of it.
+        SolveError::Infeasible(rows) => rows.iter().find(|r| !matches!(r, RowKind::Scale(_))),
         SolveError::Unsolved { worst, .. } => worst.as_ref(),
     };
     let is_order = matches!(kind, Some(RowKind::Order(_) | RowKind::Step(_)));
@@ -174,7 +175,7 @@ fn bound<'a>(sight: &'a Sight, kind: RowKind) -> Option<(&'a Bound, &'static str
     let (number, limit) = match kind {
         RowKind::Near(b) => (b, "nearest"),
         RowKind::Far(b) => (b, "farthest"),
-        RowKind::Order(_) | RowKind::Step(_) => return None,
+        RowKind::Order(_) | RowKind::Step(_) | RowKind::Scale(_) => return None,
     };
     let bound = sight.groups.bounds.get(number as usize)?;
     Some((bound, limit))

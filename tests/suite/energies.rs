@@ -1,16 +1,20 @@
 //! The paper's variants of its energy, and what it compares itself with: identities, closed forms, one program in two forms.
 
-use crate::shapes::{MIDDLE, Outcome, Setting, ball, bumpy, flat_layer, prism, wavy};
+use crate::shapes::{
+    MIDDLE, Outcome, Setting, ball, bumpy, extent, flat_layer, pillar, prism, wavy,
+};
 use glam::{DMat3, DVec2, DVec3};
-use pillarforest::certify::layer::bound_violation_mm;
+use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
 use pillarforest::geom::solid_angle;
 use pillarforest::index::{FaceId, VertexId};
+use pillarforest::kinds::height_field_depths;
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
     CurvatureForm, CurvatureOptions, Ending, Energy, FaceWeight, GradientOptions, NormalOptions,
+    RowKind, SolveError,
 };
-use pillarforest::support::{Layer, Support, SupportKind};
+use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::words::iterated::unsettled;
 
 const PAPER: CurvatureOptions = CurvatureOptions::PAPER;
@@ -244,6 +248,57 @@ fn every_energy_keeps_every_bound() {
             assert_eq!(claimed, !baseline, "{energy:?}");
         }
     }
+}
+
+/// Two balls of which the nearer hides part of the other, as two groups on one plate.
+fn two_balls() -> Setting {
+    let mut model = ball(MIDDLE, 10.0, 10);
+    model.append(&ball(MIDDLE + DVec3::new(6.0, -24.0, 5.0), 7.0, 10));
+    on_plate(model, 4.0)
+}
+
+#[test]
+fn the_curvature_energy_keeps_separate_parts_in_order() {
+    let setting = two_balls();
+    let inversions = |ordering| {
+        let energy = Energy::Curvature(CurvatureOptions { ordering, ..PAPER });
+        let outcome = setting.solved(energy);
+        assert_eq!(outcome.sight.groups.groups.len(), 2);
+        assert_eq!(
+            outcome.depths.solved.broken, 0,
+            "{:?}",
+            outcome.depths.solved
+        );
+        assert!(bound_violation_mm(&outcome.sight, &outcome.relief) < 1e-6);
+        order_inversions(&outcome.sight.image, &outcome.relief)
+    };
+    let free = inversions(false);
+    assert!(free > 10, "{free} places where nothing keeps the order");
+    assert_eq!(inversions(true), 0);
+}
+
+#[test]
+fn bounds_that_contradict_each_other_are_not_kept_at_the_eye() {
+    // A flat face as large as three round pillars, in a layer that follows them and is thinner than they are round.
+    let places = [-8.0, 0.0, 8.0].map(|x| DVec2::new(x, 20.0));
+    let supports = places.map(|at| {
+        let mut support = pillar(at, 4.0, 48, Datum::Surface);
+        support.layer = support.layer.map(|layer| Layer {
+            extent: extent(Datum::Surface, 0.1),
+            front: 0.3,
+            ..layer
+        });
+        support
+    });
+    let setting = Setting::new(bumpy(10.0), supports.to_vec());
+    let found = height_field_depths(Energy::Curvature(PAPER), &setting.sight());
+    let Err(SolveError::Infeasible(rows)) = found else {
+        panic!("{:?}", found.map(|d| d.mu));
+    };
+    assert!(
+        rows.iter()
+            .any(|r| matches!(r, RowKind::Near(_) | RowKind::Far(_)))
+    );
 }
 
 #[test]

@@ -4,12 +4,12 @@ use super::sheet::{Form, Sheet};
 use crate::groups::Groups;
 use crate::index::{FaceId, VertexId};
 use crate::mesh::DisjointSets;
-use crate::mimic::conditions::{self, Condition, Conditions, plain_tangent};
+use crate::mimic::conditions::{self, Condition, Conditions, OnGroup, plain_tangent};
 use crate::mimic::depths::{Depths, scales, seen_solid_angles, typical_width};
 use crate::mimic::energy::{CurvatureForm, CurvatureOptions};
 use crate::mimic::keeping::Keeping;
 use crate::mimic::lazily::{DepthsAndScales, MARGIN, Meaning, solve_lazily};
-use crate::mimic::program::{Program, Quadratic, Row, gathered};
+use crate::mimic::program::{Program, Quadratic, Row, RowKind, gathered};
 use crate::mimic::solve::{Method, SolveError, Solved};
 use crate::sight::Sight;
 use crate::viewmap::Image;
@@ -17,6 +17,9 @@ use crate::viewmap::Image;
 /// Weight of `(mu - 1)^2` relative to the mean diagonal (the paper's alpha, about 1 instead of 0): 1e-12 to 1e-7 give the same
 /// surface.
 const ALPHA: f64 = 1e-9;
+
+/// No group is scaled by less. What is seen has a mean relative depth near 1, and a layer's depths differ by parts of that.
+const LEAST_SCALE: f64 = 0.1;
 
 /// What all programs of one view have in common.
 pub(crate) struct Problem<'a> {
@@ -71,8 +74,8 @@ impl<'a> Problem<'a> {
         start: &[f64],
     ) -> Result<Depths, SolveError> {
         let scaled = self.options.group_scales;
-        let tangent = |c: &Condition, s: &[f64]| {
-            let row = row(&c.tightened(MARGIN * self.unit), s, start, self.unit)?;
+        let tangent = |c: &Condition, at: &DepthsAndScales| {
+            let row = row(&c.tightened(MARGIN * self.unit), at, start, self.unit);
             Some(if scaled {
                 row
             } else {
@@ -80,8 +83,14 @@ impl<'a> Problem<'a> {
             })
         };
         let mut program = self.program(sheet, forms, start);
+        let at_start = (start.to_vec(), vec![1.0; self.groups.groups.len()]);
         let first = self.conditions.all[..self.conditions.rows].iter();
-        program.rows = first.filter_map(|c| tangent(c, start)).collect();
+        // Orders between groups get theirs where a solution breaks them: at scales of 1 they would be far off.
+        let first = first.filter(|c| c.between_groups().is_none());
+        program.rows = first.filter_map(|c| tangent(c, &at_start)).collect();
+        if scaled {
+            program.rows.extend(self.least_scales(start.len()));
+        }
         let depths = |u: &[f64]| self.depths_and_scales(u, start);
         let meaning = Meaning {
             depths: &depths,
@@ -93,10 +102,10 @@ impl<'a> Problem<'a> {
             CurvatureForm::Conic => Method::InteriorPoint,
         };
         let (u, solved) = solve_lazily(&mut program, &self.conditions, &meaning, method)?;
-        let (s, _) = depths(&u);
+        let (s, own) = depths(&u);
         Ok(Depths {
             mu: match scaled {
-                true => scales(self.groups, &[], &s, |_| 1.0),
+                true => scales(self.groups, &self.conditions.all, &s, |g| own[g.at()]),
                 false => vec![1.0; self.groups.groups.len()],
             },
             s,
@@ -148,6 +157,15 @@ impl<'a> Problem<'a> {
         };
         let mu = (0..self.groups.groups.len()).map(|g| 1.0 + self.unit * u[n + g]);
         ((0..n).map(depth).collect(), mu.collect())
+    }
+
+    /// Without them bounds that contradict each other would all be kept at the eye itself, with scales of 0: their rows are homogeneous.
+    fn least_scales(&self, first: usize) -> impl Iterator<Item = Row> {
+        (0..self.groups.groups.len()).map(move |g| Row {
+            kind: RowKind::Scale(g as u32),
+            terms: vec![(first + g, -1.0)],
+            limit: (1.0 - LEAST_SCALE) / self.unit,
+        })
     }
 
     fn gauge_in_words(&self) -> &'static str {
@@ -258,37 +276,47 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
     blocks.filter_map(block).collect()
 }
 
-/// The row that touches a condition at the depths `s`; bounds (Eq 11) and orders within groups (Eq 12). An order between
-/// groups has no row: `tau / mu` is not convex there. The unknowns are what depths differ from `start` and scales from 1, in
-/// units.
-fn row(condition: &Condition, s: &[f64], start: &[f64], unit: f64) -> Option<Row> {
+/// The row that touches a condition at the depths `s` and scales `mu`. The unknowns are what depths differ from `start` and scales from
+/// 1, in units.
+///
+/// Bounds (Eq 11) and orders within a group (Eq 12) touch `tau` and are homogeneous. `tau / mu`, which an order between groups compares,
+/// is not concave: it touches `ln tau - ln mu`, whose parts are (for the groups change sides: `mu` of the back joins `tau` of the front).
+fn row(condition: &Condition, (s, mu): &DepthsAndScales, start: &[f64], unit: f64) -> Row {
     let n = start.len();
-    let mut terms = Vec::with_capacity(7);
-    let factor = match (condition.plus, condition.minus) {
-        (Some(_), Some(_)) if condition.between_groups().is_some() => return None,
-        (Some(_), Some(_)) => (-condition.limit).exp(),
-        _ => 1.0,
+    let mut terms = Vec::with_capacity(8);
+    let mut add = |side: Option<OnGroup>, depth: f64, scale: f64| {
+        let Some(OnGroup { anchor, group }) = side else {
+            return;
+        };
+        let tangent = plain_tangent(&anchor, s);
+        terms.extend(tangent.iter().map(|(v, g)| (v.at(), depth * g)));
+        if scale != 0.0 {
+            terms.push((n + group.at(), scale));
+        }
     };
-    if let Some(side) = condition.plus {
-        let tangent = plain_tangent(&side.anchor, s);
-        terms.extend(tangent.iter().map(|(v, g)| (v.at(), factor * g)));
-        if condition.minus.is_none() {
-            terms.push((n + side.group.at(), -condition.limit.exp()));
+    let (plus, minus) = (condition.plus, condition.minus);
+    let mut limit = 0.0;
+    match [plus, minus] {
+        [Some(front), Some(back)] if front.group != back.group => {
+            let [front_tau, back_tau] = [front, back].map(|side| side.anchor.relative_depth(s));
+            add(plus, 1.0 / front_tau, -1.0 / mu[front.group]);
+            add(minus, -1.0 / back_tau, 1.0 / mu[back.group]);
+            limit = -condition.excess(s, mu);
+        }
+        [Some(_), Some(_)] => {
+            add(plus, (-condition.limit).exp(), 0.0);
+            add(minus, -1.0, 0.0);
+        }
+        _ => {
+            add(plus, 1.0, -condition.limit.exp());
+            add(minus, -1.0, (-condition.limit).exp());
         }
     }
-    if let Some(side) = condition.minus {
-        let tangent = plain_tangent(&side.anchor, s);
-        terms.extend(tangent.iter().map(|(v, g)| (v.at(), -g)));
-        if condition.plus.is_none() {
-            terms.push((n + side.group.at(), (-condition.limit).exp()));
-        }
-    }
-    // In s and mu all rows are homogeneous.
     let begin = |v: usize| start.get(v).copied().unwrap_or(1.0);
     let sum: f64 = terms.iter().map(|(v, c)| c * begin(*v)).sum();
-    Some(Row {
+    Row {
         kind: condition.kind,
         terms: gathered(terms),
-        limit: -sum / unit,
-    })
+        limit: (limit - sum) / unit,
+    }
 }
