@@ -4,6 +4,7 @@
 //! affine in the image (see `groups`), so that cell corners decide for the whole cell; sides' ends decide for sides where
 //! sheets meet. Neither the program's rows nor its solution are used.
 
+use crate::geom::nothing_mm;
 use crate::groups::anchor;
 use crate::index::CellId;
 use crate::mimic::TOGETHER_MM;
@@ -11,9 +12,6 @@ use crate::relief::Relief;
 use crate::sight::Sight;
 use crate::support::Slab;
 use crate::viewmap::Image;
-
-/// Depths of a relief that differ by less are equal, millimetres: ten times what rounding does to them.
-const EQUAL_MM: f64 = 1e-6;
 
 /// How far the relief leaves its layer anywhere but at free corners, millimetres along the ray.
 pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
@@ -81,7 +79,8 @@ pub fn order_inversions(image: &Image, relief: &Relief) -> usize {
                 let [a, b] = [f, g].map(|f| anchor(target, f, q).1);
                 let apart = (a - b).abs() > TOGETHER_MM;
                 let step = (here[end] - there[j]) * map.plane.direction(q).length();
-                count += usize::from(apart && step * (a - b) < -EQUAL_MM * (a - b).abs());
+                let nothing = nothing_mm(a.max(b) / map.plane.focal);
+                count += usize::from(apart && step * (a - b) < -nothing * (a - b).abs());
             }
         }
     }

@@ -11,6 +11,14 @@ pub const FAR_MM: f64 = 3e5;
 /// From where angles are told of what is seen from infinity, millimetres: where one reads. Images of either projection so have
 /// coordinates of one size.
 pub const READING_MM: f64 = 300.0;
+/// Lengths below this are none up to the reading distance, and in proportion beyond it, millimetres: depths are found in log depth, and
+/// this is a thousandth of what f32 files resolve there.
+const NOTHING_MM: f64 = 1e-6;
+
+/// Lengths below this are none for an eye so far away, millimetres.
+pub fn nothing_mm(distance: f64) -> f64 {
+    NOTHING_MM * (distance / READING_MM).max(1.0)
+}
 
 /// The plane `focal` units in front of an eye `o`; a point `q` of it stands for the ray `o + z * direction(q)`, `z > 0`.
 ///

@@ -10,7 +10,7 @@ pub mod rings;
 mod spatial;
 
 pub use angles::{ARCMIN, SQUARE_ARCMIN, half_angle, parallax, solid_angle};
-pub use image_plane::{FAR_MM, ImagePlane, READING_MM};
+pub use image_plane::{FAR_MM, ImagePlane, READING_MM, nothing_mm};
 pub use inscribed::{Circle, inscribed};
 pub use planar::{
     barycentric, contains, gap, hull, narrowest, orient, polygon_area, segment_crossing, to_segment,

@@ -4,18 +4,9 @@ use crate::certify::conflicts::Disturbance;
 use crate::certify::coverage::Gap;
 use crate::certify::tolerance::Tolerance;
 use crate::contest::Contest;
-use crate::geom::READING_MM;
 use crate::kinds::Crossings;
 use serde::{Deserialize, Serialize};
 
-/// Lengths below this are none up to the reading distance, and in proportion beyond it, millimetres: depths are found in log depth, and
-/// this is a thousandth of what f32 files resolve there.
-const NOTHING_MM: f64 = 1e-6;
-
-/// Lengths below this are none for an eye so far away, millimetres.
-pub fn nothing_mm(distance: f64) -> f64 {
-    NOTHING_MM * (distance / READING_MM).max(1.0)
-}
 /// Duality gaps and residuals of a program in its own units; solutions come out two to four digits below.
 pub const OPTIMAL: f64 = 1e-6;
 

@@ -11,7 +11,7 @@ mod print;
 mod solid;
 mod view;
 
-pub use certificate::{CertificateReport, ModelShare, OPTIMAL, Proof, nothing_mm};
+pub use certificate::{CertificateReport, ModelShare, OPTIMAL, Proof};
 pub use document::{Report, Software};
 pub use print::PrintReport;
 pub use solid::{RepairReport, SolidCheck, SolidReport};

@@ -1,5 +1,6 @@
 //! What rays found amiss at the finished forest, in words.
 
+use super::carrier::mending;
 use crate::certify::conflicts::{Disturbance, Sighted, Trouble};
 use crate::diag::Diagnostic;
 
@@ -15,11 +16,15 @@ pub fn warnings(view: &str, found: &Sighted, carrier: &str) -> Vec<Diagnostic> {
             }
             (_, None) => format!("has {support} before its relief"),
         };
-        Diagnostic::warning(format!(
+        let told = Diagnostic::warning(format!(
             "view \"{view}\" {what} over {:.1} square arc-minutes, mostly near ({x:.1}, {y:.1}, {z:.1}) mm",
             d.arcmin2
         ))
-        .help(format!("move {carrier}s apart there, or make their layers thinner"))
+        .help(format!("move {carrier}s apart there, or make their layers thinner"));
+        match mending(carrier) {
+            Some(line) => told.help(line),
+            None => told,
+        }
     };
     found.disturbances.iter().map(told).collect()
 }

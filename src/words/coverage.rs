@@ -1,5 +1,6 @@
 //! What of the models nothing carries, in words.
 
+use super::carrier::mending;
 use crate::certify::coverage::{Cause, CauseShare, Coverage, Gap};
 use crate::diag::Diagnostic;
 
@@ -18,12 +19,16 @@ pub fn warnings(view: &str, found: &Coverage, carrier: &str) -> Vec<Diagnostic> 
 fn warning(view: &str, cause: &CauseShare, carrier: &str) -> Diagnostic {
     let gap = cause.largest;
     let (reason, help) = reason_and_help(gap, carrier);
-    Diagnostic::warning(format!(
+    let told = Diagnostic::warning(format!(
         "view \"{view}\" misses {:.2} % of its models, mostly {}: {reason}",
         100.0 * cause.share,
         beside_sight(gap.right_deg, gap.up_deg),
     ))
-    .help(help)
+    .help(help);
+    match mending(carrier) {
+        Some(line) if gap.cause != Cause::Infeasible => told.help(line),
+        _ => told,
+    }
 }
 
 /// A direction by its angles, degrees, right of and above an eye's line of sight.

@@ -10,6 +10,7 @@ use pillarforest::carve::{Forest, Operand, carve};
 use pillarforest::certify::conflicts::{self, Finished, Sharpness, Sighted, Trouble};
 use pillarforest::certify::coverage::{Cause, Coverage, coverage};
 use pillarforest::contest::{CONTACT_MM, Contested, Frustum, Settlement, contested, settle};
+use pillarforest::diag::Diagnostic;
 use pillarforest::geom::SQUARE_ARCMIN;
 use pillarforest::index::{CellId, ViewId};
 use pillarforest::kinds;
@@ -383,11 +384,10 @@ fn a_pillar_that_is_too_short_is_named_with_what_it_lacks() {
     );
     assert!(gap.up_deg > 0.0 && gap.right_deg.abs() < 0.5);
     assert!((DVec3::from(gap.place_mm).y + 25.0).abs() < 1e-9);
-    assert!(
-        words::coverage::warnings("a", &coverage, "pillar")[0]
-            .message
-            .contains("too short")
-    );
+    let told = |carrier| words::coverage::warnings("a", &coverage, carrier)[0].clone();
+    assert!(told("pillar").message.contains("too short"));
+    let names_repair = |d: Diagnostic| d.help.iter().any(|h| h.contains("`pillarforest repair`"));
+    assert!(names_repair(told("pillar")) && !names_repair(told("support")));
 }
 
 #[test]

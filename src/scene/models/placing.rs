@@ -5,6 +5,7 @@ use crate::mesh::TriMesh;
 use crate::planner::Adjustment;
 use crate::scene::defaults;
 use crate::scene::language::raw::{RawFit, RawPlace};
+use crate::scene::resolved::MakingWay;
 use crate::scene::text::{Field, List, Reader, Span, error_at, short, warning_at};
 use crate::view::PlacedModel;
 use glam::{DMat3, DMat4, DVec2, DVec3};
@@ -313,7 +314,12 @@ pub(crate) fn adjust(models: &mut [PlacedModel], adjustment: &Adjustment) {
 }
 
 /// Warnings and errors about the size of a placed model.
-pub(crate) fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<Diagnostic> {
+pub(crate) fn size_suspicion(
+    name: &str,
+    mesh: &TriMesh,
+    span: &Span,
+    way: MakingWay,
+) -> Option<Diagnostic> {
     let (lo, hi) = mesh.bounds()?;
     let largest = (hi - lo).max_element();
     let fit = "fit it: `place: Fit(largest: 60)`, or give its `units`";
@@ -338,8 +344,9 @@ pub(crate) fn size_suspicion(name: &str, mesh: &TriMesh, span: &Span) -> Option<
             "saved in metres? add `units: m` to the model, or fit it: `place: Fit(largest: 60)`",
         ));
     }
-    if largest > 1500.0 {
-        return Some(say(": larger than any printer", fit));
-    }
-    None
+    let too_large = way == MakingWay::Printed && largest > 1500.0;
+    too_large.then(|| {
+        say(": larger than any printer", fit)
+            .help("or say that it is no print: `make: Built()`, `make: Milled()`")
+    })
 }

@@ -5,6 +5,7 @@ use super::eye::{Stand, direction};
 use crate::geom::FAR_MM;
 use crate::planner::Adjustment;
 use crate::scene::models::{Model, placing};
+use crate::scene::resolved::MakingWay;
 use crate::scene::text::{Reader, document, error_at, short};
 use crate::view::{PlacedModel, View};
 use glam::DVec3;
@@ -15,6 +16,7 @@ pub(crate) fn view(
     draft: Draft,
     models: &[Model],
     adjusted: &Adjustment,
+    way: MakingWay,
     upright: bool,
 ) -> View {
     let mut placed = Vec::new();
@@ -30,7 +32,7 @@ pub(crate) fn view(
         let mesh = model.lowered.as_ref().unwrap_or(mesh).transformed(matrix);
         reader
             .problems
-            .extend(placing::size_suspicion(name, &mesh, &model.span));
+            .extend(placing::size_suspicion(name, &mesh, &model.span, way));
         placed.push(PlacedModel {
             name: name.clone(),
             file: model.file.clone(),
