@@ -1,15 +1,16 @@
-//! What the program has to tell its user: errors and warnings as values.
+//! What the program has to tell its user: errors, warnings and notes as values.
 //!
 //! Takes nothing, prints nothing. Every stage that can meet bad input returns `Diagnostic`s (all of a stage at once);
 //! only the binary renders them. A message says what was found and what was wanted, a help line what to type.
 
 use std::ops::Range;
 
-/// How bad it is. Errors stop the build before anything is written.
+/// How bad it is. Errors stop the build before anything is written; notes are no problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     Error,
     Warning,
+    Note,
 }
 
 /// Where in the user's files the problem lies.
@@ -29,7 +30,7 @@ pub enum Place {
     File(String),
 }
 
-/// One error or warning.
+/// One error, warning or note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     pub severity: Severity,
@@ -63,6 +64,13 @@ impl Diagnostic {
         }
     }
 
+    pub fn note(message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Note,
+            ..Self::error(message)
+        }
+    }
+
     pub fn at(mut self, place: Place) -> Self {
         self.place = Some(place);
         self
@@ -90,6 +98,10 @@ impl Diagnostic {
     pub fn fault(mut self) -> Self {
         self.fault = true;
         self
+    }
+
+    pub fn is_warning(&self) -> bool {
+        self.severity == Severity::Warning
     }
 
     pub fn is_error(&self) -> bool {

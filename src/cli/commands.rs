@@ -208,6 +208,10 @@ fn make(messages: &Messages, global: &Global, args: &SceneArgs, errand: &Errand)
             .help("give a directory: `-o out/pieces`");
         return fail(messages, &[problem], None, WRONG_USAGE);
     }
+    if errand.goal != Goal::Plan {
+        let slow = compile::slow(&loaded.scene, rayon::current_num_threads());
+        messages.print(slow.as_slice(), None);
+    }
     let names = errand.goal.names(&loaded.scene);
     let names = names.iter().map(String::as_str);
     if let Err(problems) = destination.clear(names, &args.scene, &loaded.read) {

@@ -65,10 +65,8 @@ impl Messages {
     /// Prints all; tells whether the run must stop.
     pub(super) fn print(&self, list: &[Diagnostic], source: Option<&Source>) -> bool {
         let mut out = String::new();
-        for diagnostic in list
-            .iter()
-            .filter(|d| d.is_error() || !self.quiet || self.deny_warnings)
-        {
+        let stops = |d: &Diagnostic| d.is_error() || self.deny_warnings && d.is_warning();
+        for diagnostic in list.iter().filter(|d| stops(d) || !self.quiet) {
             match self.style {
                 Style::Human => out.push_str(&self.human(diagnostic, source)),
                 Style::Short => out.push_str(&short(diagnostic, source)),
@@ -81,7 +79,7 @@ impl Messages {
         }
         // As with `tell`.
         let _ = std::io::stderr().write_all(out.as_bytes());
-        list.iter().any(|d| d.is_error() || self.deny_warnings)
+        list.iter().any(stops)
     }
 
     /// `2 errors, 1 warning. Nothing was written.`
@@ -90,7 +88,7 @@ impl Messages {
             return;
         }
         let errors = list.iter().filter(|d| d.is_error()).count();
-        let warnings = list.len() - errors;
+        let warnings = list.iter().filter(|d| d.is_warning()).count();
         let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
         let parts: Vec<String> = [(errors, "error"), (warnings, "warning")]
             .iter()
@@ -109,6 +107,7 @@ impl Messages {
         let level = match diagnostic.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
+            Severity::Note => Level::NOTE,
         };
         let message = escaped(&diagnostic.message);
         let label = diagnostic.label.as_deref().map(escaped);
@@ -252,6 +251,7 @@ fn severity(diagnostic: &Diagnostic) -> &'static str {
     match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
+        Severity::Note => "note",
     }
 }
 

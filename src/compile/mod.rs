@@ -5,6 +5,7 @@
 
 mod built;
 mod certificates;
+mod effort;
 mod elsewhere;
 mod files;
 mod headline;
@@ -22,6 +23,7 @@ mod stages;
 mod summary;
 mod verdict;
 
+pub use effort::slow;
 pub use names::{build_names, picture_names, plan_names};
 pub use output::{Build, Drawn, OutputFile};
 pub use planning::{LAYOUT, SEARCH_FILES, cut_short, plan_outputs, planned, repaired, shortfalls};

@@ -16,7 +16,7 @@ use super::text::document::{self, Document};
 use super::text::lexer;
 use super::text::{Field, Reader, printable, warning_at};
 use super::views::{Draft, Eye, drafts, view};
-use crate::diag::{Diagnostic, Severity, Warned};
+use crate::diag::{Diagnostic, Warned};
 use crate::kinds::{Bounded, ReliefKind};
 use crate::mimic::Energy;
 
@@ -57,7 +57,7 @@ pub fn resolve_for(
         }
     });
     match scene {
-        Some(value) if problems.iter().all(|d| d.severity == Severity::Warning) => Ok(Warned {
+        Some(value) if !problems.iter().any(Diagnostic::is_error) => Ok(Warned {
             value,
             warnings: problems,
         }),
@@ -127,7 +127,7 @@ fn build(
     let upright = carriers.most_pillars() > 0;
     let drafts = drafts.into_iter().zip(&adjusted);
     let views = drafts
-        .map(|(draft, adjusted)| view(reader, draft, models, adjusted, upright))
+        .map(|(draft, adjusted)| view(reader, draft, models, adjusted, making.way, upright))
         .collect();
     let sound = reader.problems.iter().all(|d| !d.is_error());
     let (mut supports, brief) = carriers.finished();

@@ -7,6 +7,7 @@ pub mod carrier;
 pub mod conflicts;
 pub mod contest;
 pub mod coverage;
+pub mod effort;
 pub mod gate;
 pub mod iterated;
 pub mod ladders;

@@ -9,6 +9,7 @@ use pillarforest::scene;
 use pillarforest::sight::Sight;
 use pillarforest::viewmap::SupportField;
 use pillarforest::words;
+use serde_json::Value;
 
 /// A wall of 8 m, as thin as a plate.
 const WALL: &str = "v -4000 -1 0\nv 4000 -1 0\nv 4000 1 0\nv -4000 1 0\nv -4000 -1 40\nv 4000 -1 40\nv 4000 1 40\nv -4000 1 40\n\
@@ -17,6 +18,10 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
     match name {
         "ball.obj" => Ok(obj(&ball(DVec3::ZERO, 20.0, 12))),
+        "owl.ply" => {
+            let models = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/models/");
+            std::fs::read(format!("{models}{name}")).map_err(|e| Diagnostic::error(e.to_string()))
+        }
         "wall.obj" => Ok(WALL.as_bytes().to_vec()),
         _ => Err(Diagnostic::error(format!("no file {name}"))),
     }
@@ -120,6 +125,30 @@ fn a_layer_as_deep_as_the_forest_is_built() {
     assert_eq!(build.failures, []);
 }
 
+/// A model of 1.2 m seen from 9 m: what is rounded there is thirty times as much as on a desk, and no printer is asked.
+#[test]
+fn an_exhibit_is_in_order() {
+    let pillars: String = (-3..=3)
+        .map(|k| format!("({}, {}), ", 240 * k, if k % 2 == 0 { -240 } else { 240 }))
+        .collect();
+    let text = format!(
+        "(detail: 2000, models: [(name: \"m\", file: \"owl.ply\", place: Fit(height: 1200, at: (0, 0, 240)))],\n\
+         views: [(name: \"front\", eye: (0, -9000, 1350), models: [\"m\"])],\n\
+         pillars: [(shape: Round(radius: 150, facets: 24), height: 1800, places: At([{pillars}]))],\n\
+         depth: (front: 90, back: 30), make: Built(),\n\
+         output: (forest_glb: false, views: false, lights: false, camouflage: false, report_html: false, picture_size: 64))"
+    );
+    let larger = scene::resolve(&text.replace("1200", "1700"), &read).expect("a scene");
+    assert_eq!(larger.warnings, []);
+    let resolved = scene::resolve(&text, &read).expect("a scene");
+    let build = compile::build(&resolved.value, &|_, _| {}, &|| false).expect("a build");
+    let report = build.files.iter().find(|f| f.path == "report.json");
+    let report: Value = serde_json::from_slice(&report.expect("a report").bytes).expect("JSON");
+    let certificate = &report["views"][0]["certificate"];
+    assert_eq!(certificate["order_inversions"], 0);
+    assert_eq!(certificate["bound_violation_mm"], 0.0);
+}
+
 #[test]
 fn a_solver_that_gives_up_says_where() {
     let text = text(
@@ -146,4 +175,33 @@ fn a_solver_that_gives_up_says_where() {
         "view \"front\": no depths were found: after 200",
         "`front`",
     );
+}
+
+#[test]
+fn long_builds_say_so_and_what_makes_them_short() {
+    let read = |_: &str| Ok(obj(&ball(DVec3::ZERO, 20.0, 100)));
+    let views: String = (0..12)
+        .map(|k| {
+            format!(
+                "(name: \"v{k}\", eye: (0, -300, {}), models: [\"m\"]), ",
+                10 + 10 * k
+            )
+        })
+        .collect();
+    let text = format!(
+        "(models: [(name: \"m\", file: \"ball.obj\", place: Fit(height: 40, at: (0, 0, 8)))], views: [{views}],\n\
+         pillars: [(shape: Round(radius: 30), height: 60, places: At([(0, 0)]))])"
+    );
+    let scene = scene::resolve(&text, &read).expect("a scene").value;
+    let told = compile::slow(&scene, 1).expect("240,000 vertices take minutes");
+    assert!(!told.is_error() && !told.is_warning());
+    assert_told(
+        &[told],
+        "this build will take about 2 minutes; the largest model, \"m\", has 19802 vertices",
+        "`--set detail=5000` simplifies the models: about 30 s",
+    );
+    assert_eq!(compile::slow(&scene, 12), None, "not with twelve threads");
+    let small = scene::set(&text, "detail=5000").expect("a text");
+    let small = scene::resolve(&small, &read).expect("a scene").value;
+    assert_eq!(compile::slow(&small, 1), None, "not when simplified");
 }
