@@ -13,6 +13,10 @@ use crate::sight::Sight;
 use crate::support::Slab;
 use crate::viewmap::Image;
 
+/// Depths this near to a limit lie at it, as a share of the layer's thickness: a hundred times what conditions are tightened by, and a
+/// thousandth of what is seen as relief.
+const AT_LIMIT: f64 = 1e-4;
+
 /// How far the relief leaves its layer anywhere but at free corners, millimetres along the ray.
 pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
     let image = &sight.image;
@@ -33,6 +37,27 @@ pub fn bound_violation_mm(sight: &Sight, relief: &Relief) -> f64 {
 fn on_layers(sight: &Sight, relief: &Relief) -> impl Iterator<Item = (CellId, [f64; 3], Slab)> {
     let cells = sight.image.map.all();
     cells.filter_map(|(c, cell)| Some((c, relief.depth[c]?, sight.groups.slabs[cell.support?]?)))
+}
+
+/// Share of the relief, by solid angle, whose cells lie at one limit of their layer with all corners: plateaus.
+pub fn share_at_limit(sight: &Sight, relief: &Relief) -> f64 {
+    let image = &sight.image;
+    let map = &image.map;
+    let (mut all, mut flat) = (0.0, 0.0);
+    for (c, depths, slab) in on_layers(sight, relief) {
+        let at = |limit: fn((f64, f64)) -> f64| {
+            depths.iter().enumerate().all(|(k, z)| {
+                let layer = image.layer_in(&slab, c, k);
+                (z - limit(layer)).abs() <= AT_LIMIT * (layer.1 - layer.0)
+            })
+        };
+        let solid_angle = map.solid_angle(c);
+        all += solid_angle;
+        if at(|l| l.0) || at(|l| l.1) {
+            flat += solid_angle;
+        }
+    }
+    if all > 0.0 { flat / all } else { 0.0 }
 }
 
 /// How far reliefs come before their datum and go behind it, millimetres as their layers measure it.

@@ -6,7 +6,7 @@ use super::print::print_checks;
 use super::sight::{carried, give_up};
 use crate::certify::camouflage::Camouflage;
 use crate::certify::conflicts::{Finished, Sharpness, sighted};
-use crate::certify::layer::reach_mm;
+use crate::certify::layer::{reach_mm, share_at_limit};
 use crate::certify::printability::PrintCheck;
 use crate::contest::{Contest, contested, settle};
 use crate::diag::Diagnostic;
@@ -125,6 +125,7 @@ fn certificate(
     let certificate = CertificateReport {
         relief_front_mm: front,
         relief_back_mm: back,
+        at_limit: share_at_limit(sight, relief),
         bound_violation_mm: shape.bound_violation_mm(),
         clamp_mm: relief.clamp_mm,
         nothing_mm: nothing_mm(distance(sight)),

@@ -5,10 +5,9 @@ use super::certificates::Certificates;
 use super::pictures::Pictures;
 use crate::certify::printability::{PrintCheck, PrintFinding};
 use crate::diag::Diagnostic;
-use crate::kinds::{Crossings, Optimised};
+use crate::kinds::Crossings;
 use crate::report::{CertificateReport, OPTIMAL};
 use crate::scene::Scene;
-use crate::view::View;
 use crate::words::{self, carrier::carrier};
 
 /// Everything that does not hold: of the models, of each view, of the forest as one, and of printing it.
@@ -40,15 +39,17 @@ pub(crate) fn remarks(
     certificates: &Certificates,
 ) -> Vec<Diagnostic> {
     let making = of_making(built, certificates).filter(|d| !d.is_error());
-    let shapes = built.shapes.iter().map(AsRef::as_ref);
-    let views = built.scene.views.iter().zip(shapes).zip(pictures);
-    let of_view = |((view, shape), found): ((&View, &dyn Optimised), &Pictures)| {
-        let summary = shape.steps().map(|(_, summary)| *summary);
-        let given_up = summary.and_then(|s| words::likeness::tears_given_up(&view.name, &s));
-        let mean = found.likeness.mean_of_hits_deg();
-        let far = words::likeness::far_off(&view.name, mean, &built.scene.relief);
-        [given_up, far].into_iter().flatten()
+    let relief = &built.scene.relief;
+    let of_view = |v: usize| {
+        let name = &built.scene.views[v].name;
+        let summary = built.shapes[v].steps().map(|(_, summary)| *summary);
+        let given_up = summary.and_then(|s| words::likeness::tears_given_up(name, &s));
+        let mean = pictures[v].likeness.mean_of_hits_deg();
+        let far = words::likeness::far_off(name, mean, relief);
+        let flat = words::likeness::plateau(name, certificates.views[v].at_limit, relief);
+        [given_up, far, flat].into_iter().flatten()
     };
+    let views = 0..built.scene.views.len();
     making.chain(views.flat_map(of_view)).collect()
 }
 

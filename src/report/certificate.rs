@@ -22,6 +22,9 @@ pub struct CertificateReport {
     /// How far the relief comes before its datum and goes behind it, as its layer measures it: millimetres.
     pub relief_front_mm: f64,
     pub relief_back_mm: f64,
+    /// Share of the relief, by solid angle, that lies flat at a limit of its layer: what stood out there is cut off.
+    #[serde(default)]
+    pub at_limit: f64,
     /// Places where a farther sheet of the model comes before a nearer one.
     pub order_inversions: usize,
     /// What crosses in the optimised surface, hidden parts included, before it is cut; only where all of the mesh is optimised.

@@ -26,6 +26,29 @@ pub fn far_off(view: &str, mean_deg: f64, relief: &ReliefKind) -> Option<Diagnos
     (mean_deg > FAR_DEG).then(|| Diagnostic::warning(text).help(help))
 }
 
+/// More of a relief than this at a limit of its layer is seen as a plateau: of the bundled reliefs in one piece none has more than 0.013
+/// (the herd), a coin whose nose is cut off has 0.13 to 0.21.
+const PLATEAU: f64 = 0.05;
+
+/// What to warn of if so large a `share` of a relief in one piece lies flat at a limit of its layer.
+pub fn plateau(view: &str, share: f64, relief: &ReliefKind) -> Option<Diagnostic> {
+    let help = match relief {
+        ReliefKind::HeightField(Energy::Normal(_)) => {
+            "thicker layers (`front`, `back`) leave it room; `energy: Curvature()` bends the surface instead, `energy: Normal(steps: Allowed())` tears it"
+        }
+        ReliefKind::HeightField(Energy::Curvature(_)) => {
+            "thicker layers (`front`, `back`) leave it room"
+        }
+        // Torn pieces begin anew at steps, and compressed depths reach both limits by definition.
+        ReliefKind::HeightField(_) | ReliefKind::Torn(..) | ReliefKind::Whole(..) => return None,
+    };
+    let text = format!(
+        "view \"{view}\": {:.0} % of its relief lies flat at a limit of its layer: what stands out there is cut off",
+        100.0 * share
+    );
+    (share > PLATEAU).then(|| Diagnostic::warning(text).help(help))
+}
+
 /// What to warn of if tears had to be given up.
 pub fn tears_given_up(view: &str, found: &StepSummary) -> Option<Diagnostic> {
     let text = format!(

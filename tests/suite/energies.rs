@@ -4,10 +4,10 @@ use crate::shapes::{
     MIDDLE, Outcome, Setting, ball, bumpy, extent, flat_layer, pillar, prism, wavy,
 };
 use glam::{DMat3, DVec2, DVec3};
-use pillarforest::certify::layer::{bound_violation_mm, order_inversions};
+use pillarforest::certify::layer::{bound_violation_mm, order_inversions, share_at_limit};
 use pillarforest::geom::solid_angle;
-use pillarforest::index::{FaceId, VertexId};
-use pillarforest::kinds::height_field_depths;
+use pillarforest::index::{CellId, FaceId, VertexId};
+use pillarforest::kinds::{ReliefKind, height_field_depths};
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mesh::TriMesh;
 use pillarforest::mimic::{
@@ -16,6 +16,7 @@ use pillarforest::mimic::{
 };
 use pillarforest::support::{Datum, Layer, Support, SupportKind};
 use pillarforest::words::iterated::unsettled;
+use pillarforest::words::likeness::plateau;
 
 const PAPER: CurvatureOptions = CurvatureOptions::PAPER;
 const ABSOLUTE: CurvatureOptions = CurvatureOptions {
@@ -37,6 +38,12 @@ const ITERATED: CurvatureOptions = CurvatureOptions {
     ..PAPER
 };
 
+const NORMAL: NormalOptions = NormalOptions {
+    weight: FaceWeight::Area,
+    ordering: true,
+    reweight: 0,
+};
+
 fn gradient(compression: f64) -> Energy {
     Energy::Gradient(GradientOptions { compression })
 }
@@ -44,15 +51,7 @@ fn gradient(compression: f64) -> Energy {
 /// All of them.
 fn energies() -> Vec<Energy> {
     let curvatures = [PAPER, ABSOLUTE, BENT, CONIC, ITERATED];
-    let mut all = vec![
-        Energy::Normal(NormalOptions {
-            weight: FaceWeight::Area,
-            ordering: true,
-            reweight: 0,
-        }),
-        Energy::Linear,
-        gradient(5.0),
-    ];
+    let mut all = vec![Energy::Normal(NORMAL), Energy::Linear, gradient(5.0)];
     all.extend(curvatures.map(Energy::Curvature));
     all
 }
@@ -248,6 +247,47 @@ fn every_energy_keeps_every_bound() {
             assert_eq!(claimed, !baseline, "{energy:?}");
         }
     }
+}
+
+#[test]
+fn plateaus_are_counted_by_what_the_eye_sees_of_them() {
+    let Outcome { sight, relief, .. } = on_plate(bumpy(12.0), 3.0).solved(Energy::Linear);
+    let map = &sight.image.map;
+    // Every carried cell at a depth between the limits of its layer: 0 is the near one, 1 the far one.
+    let moved = |to: &dyn Fn(CellId) -> f64| {
+        let mut moved = relief.clone();
+        for (c, cell) in map.all() {
+            let Some(slab) = cell.support.and_then(|s| sight.groups.slabs[s].as_ref()) else {
+                continue;
+            };
+            moved.depth[c] = moved.depth[c].map(|_| {
+                [0, 1, 2].map(|k| {
+                    let (near, far) = sight.image.layer_in(slab, c, k);
+                    near + to(c) * (far - near)
+                })
+            });
+        }
+        share_at_limit(&sight, &moved)
+    };
+    assert_eq!(moved(&|_| 0.5), 0.0);
+    assert_eq!([moved(&|_| 0.0), moved(&|_| 1.0)], [1.0, 1.0]);
+    let is_left = |c: CellId| map.triangle(c).iter().all(|q| q.x < 0.0);
+    let carried = map.all().filter(|(c, _)| relief.depth[*c].is_some());
+    let angles: Vec<(f64, bool)> = carried
+        .map(|(c, _)| (map.solid_angle(c), is_left(c)))
+        .collect();
+    let all: f64 = angles.iter().map(|a| a.0).sum();
+    let left: f64 = angles.iter().filter(|a| a.1).map(|a| a.0).sum();
+    let share = moved(&|c| if is_left(c) { 1.0 } else { 0.3 });
+    assert!(
+        left > 0.3 * all && (share - left / all).abs() < 1e-12,
+        "{share}"
+    );
+
+    let in_one_piece = ReliefKind::HeightField(Energy::Normal(NORMAL));
+    let told = |share| plateau("left", share, &in_one_piece);
+    assert_eq!(told(0.02), None);
+    assert!(told(0.21).is_some_and(|d| d.message.contains("21 % of its relief lies flat")));
 }
 
 /// Two balls of which the nearer hides part of the other, as two groups on one plate.

@@ -43,6 +43,7 @@ fn report(error: f64, crossings: usize) -> Report {
     let certificate = CertificateReport {
         relief_front_mm: 1.0,
         relief_back_mm: 0.5,
+        at_limit: 0.0,
         order_inversions: crossings,
         crossings: Some(Crossings::default()),
         coverage: 1.0,

@@ -63,6 +63,7 @@ fn certificate() -> CertificateReport {
         nothing_mm: 1e-6,
         relief_front_mm: 4.75,
         relief_back_mm: 1.625,
+        at_limit: 0.125,
         order_inversions: 41,
         crossings: None,
         proof: Some(Proof {

@@ -104,7 +104,14 @@ fn within_layer(c: &CertificateReport) -> Vec<Answer> {
         ),
     ]
     .map(|(what, mm, holds, words)| Answer(what, measure(mm, 3, "mm"), holds, words.into()))
-    .into()
+    .into_iter()
+    .chain([Answer(
+        "Flat at a limit of its layer",
+        percent(c.at_limit),
+        None,
+        "How much of the relief has no room left: what stands out there is cut off.".into(),
+    )])
+    .collect()
 }
 
 /// What crosses in the surface as it was optimised.
