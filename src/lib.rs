@@ -13,6 +13,7 @@
 //! |---|---|---|
 //! | a model's file | [`intake::load_original`] | [`intake::Admitted`]: a mesh fit to be looked at, and what its file says besides |
 //! | scene text and model files | [`scene::resolve`] | [`scene::Scene`]: millimetres, everything loaded, placed and checked |
+//! | scene | [`compile::slow`] | a note on how long its build will take, if that is long |
 //! | scene whose pillars are to be found | [`compile::planned`] | the same with pillars, and what they are worth |
 //! | an eye in plan and outlines of pillars | [`horizon::Horizon::new`] | [`horizon::Horizon`]: which is met first at every bearing; the planner, and plans that are drawn, see through it |
 //! | supports | [`viewmap::SupportField::new`] | supports ready for rays |

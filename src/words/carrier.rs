@@ -1,5 +1,6 @@
 //! What a scene's supports are called.
 
+use crate::diag::Diagnostic;
 use crate::support::Support;
 
 const PILLAR: &str = "pillar";
@@ -12,9 +13,12 @@ pub fn carrier(supports: &[Support]) -> &'static str {
     }
 }
 
-/// What to type so that a layout is mended: layouts are of pillars.
-pub(super) fn mending(carrier: &str) -> Option<&'static str> {
-    (carrier == PILLAR).then_some(
-        "`pillarforest repair` moves, adds and raises listed pillars until every view is whole",
-    )
+/// The same message with what to type so that a layout is mended: layouts are of pillars.
+pub(super) fn or_mended(told: Diagnostic, carrier: &str) -> Diagnostic {
+    match carrier {
+        PILLAR => told.help(
+            "`pillarforest repair` moves, adds and raises listed pillars until every view is whole",
+        ),
+        _ => told,
+    }
 }

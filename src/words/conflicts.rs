@@ -1,6 +1,6 @@
 //! What rays found amiss at the finished forest, in words.
 
-use super::carrier::mending;
+use super::carrier::or_mended;
 use crate::certify::conflicts::{Disturbance, Sighted, Trouble};
 use crate::diag::Diagnostic;
 
@@ -21,10 +21,7 @@ pub fn warnings(view: &str, found: &Sighted, carrier: &str) -> Vec<Diagnostic> {
             d.arcmin2
         ))
         .help(format!("move {carrier}s apart there, or make their layers thinner"));
-        match mending(carrier) {
-            Some(line) => told.help(line),
-            None => told,
-        }
+        or_mended(told, carrier)
     };
     found.disturbances.iter().map(told).collect()
 }

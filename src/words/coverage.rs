@@ -1,6 +1,6 @@
 //! What of the models nothing carries, in words.
 
-use super::carrier::mending;
+use super::carrier::or_mended;
 use crate::certify::coverage::{Cause, CauseShare, Coverage, Gap};
 use crate::diag::Diagnostic;
 
@@ -25,9 +25,9 @@ fn warning(view: &str, cause: &CauseShare, carrier: &str) -> Diagnostic {
         beside_sight(gap.right_deg, gap.up_deg),
     ))
     .help(help);
-    match mending(carrier) {
-        Some(line) if gap.cause != Cause::Infeasible => told.help(line),
-        _ => told,
+    match gap.cause {
+        Cause::Infeasible => told,
+        _ => or_mended(told, carrier),
     }
 }
 

@@ -279,8 +279,9 @@ fn gauge(problem: &Problem, start: &[f64]) -> Vec<(Vec<(usize, f64)>, f64)> {
 /// The row that touches a condition at the depths `s` and scales `mu`. The unknowns are what depths differ from `start` and scales from
 /// 1, in units.
 ///
-/// Bounds (Eq 11) and orders within a group (Eq 12) touch `tau` and are homogeneous. `tau / mu`, which an order between groups compares,
-/// is not concave: it touches `ln tau - ln mu`, whose parts are (for the groups change sides: `mu` of the back joins `tau` of the front).
+/// The rows of bounds (Eq 11) and of orders within a group (Eq 12) are tangents of `tau`, and homogeneous. An order between groups
+/// compares `tau / mu`, which is not concave. Its row is a tangent of `ln tau - ln mu` instead: near where it touches it is exact, and
+/// farther off the front's `mu` and the back's `tau` let a little through, which the next round's row takes back.
 fn row(condition: &Condition, (s, mu): &DepthsAndScales, start: &[f64], unit: f64) -> Row {
     let n = start.len();
     let mut terms = Vec::with_capacity(8);
