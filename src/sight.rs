@@ -94,6 +94,24 @@ impl<'a> Sight<'a> {
             })
     }
 
+    /// Sides at which one layer carries different faces, each told once: the cell with the lower number, its side and the cell beyond.
+    /// Only there can sheets of the relief cross: a ray meets one cell, and a layer that jumps decides itself what is before what.
+    pub fn seams(&self) -> impl Iterator<Item = (CellId, usize, CellId)> {
+        let Self { image, groups, .. } = self;
+        let map = &image.map;
+        map.all().flat_map(move |(c, cell)| {
+            let goes_on = move |k: usize| {
+                let n = map.neighbours[c][k].filter(|n| *n > c)?;
+                let other = &map.cells[n];
+                groups.of_cell[c].and(groups.of_cell[n])?;
+                let slab = groups.slabs[cell.support?].as_ref()?;
+                let meet = cell.support == other.support && cell.face != other.face;
+                (meet && image.layer_goes_on(slab, c, k, n)).then_some((c, k, n))
+            };
+            (0..3).filter_map(goes_on)
+        })
+    }
+
     /// The same without the cells it loses (rising), which may leave it nothing.
     pub fn without(mut self, lost: Vec<Loss>) -> Self {
         if !lost.is_empty() {

@@ -75,38 +75,29 @@ pub fn reach_mm(sight: &Sight, relief: &Relief) -> (f64, f64) {
     reach
 }
 
-/// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same
-/// support.
-pub fn order_inversions(image: &Image, relief: &Relief) -> usize {
-    let Image { map, target, .. } = image;
+/// Ends of sides of cells at which the relief of a farther sheet of the model comes before that of a nearer one on the same layer.
+pub fn order_inversions(sight: &Sight, relief: &Relief) -> usize {
+    let Image { map, target, .. } = &sight.image;
     let mut count = 0;
-    for (c, cell) in map.all() {
-        for k in 0..3 {
-            let Some(n) = map.neighbours[c][k].filter(|n| *n > c) else {
+    for (c, k, n) in sight.seams() {
+        let (cell, other) = (&map.cells[c], &map.cells[n]);
+        let (Some(here), Some(there)) = (relief.depth[c], relief.depth[n]) else {
+            continue;
+        };
+        let (Some(f), Some(g)) = (cell.face, other.face) else {
+            continue;
+        };
+        for end in [k, (k + 1) % 3] {
+            let p = cell.corners[end];
+            let Some(j) = other.corners.iter().position(|x| *x == p) else {
                 continue;
             };
-            let other = &map.cells[n];
-            let (Some(here), Some(there)) = (relief.depth[c], relief.depth[n]) else {
-                continue;
-            };
-            let (Some(f), Some(g)) = (cell.face, other.face) else {
-                continue;
-            };
-            if cell.support != other.support || f == g {
-                continue;
-            }
-            for end in [k, (k + 1) % 3] {
-                let p = cell.corners[end];
-                let Some(j) = other.corners.iter().position(|x| *x == p) else {
-                    continue;
-                };
-                let q = map.points[p];
-                let [a, b] = [f, g].map(|f| anchor(target, f, q).1);
-                let apart = (a - b).abs() > TOGETHER_MM;
-                let step = (here[end] - there[j]) * map.plane.direction(q).length();
-                let nothing = nothing_mm(a.max(b) / map.plane.focal);
-                count += usize::from(apart && step * (a - b) < -nothing * (a - b).abs());
-            }
+            let q = map.points[p];
+            let [a, b] = [f, g].map(|f| anchor(target, f, q).1);
+            let apart = (a - b).abs() > TOGETHER_MM;
+            let step = (here[end] - there[j]) * map.plane.direction(q).length();
+            let nothing = nothing_mm(a.max(b) / map.plane.focal);
+            count += usize::from(apart && step * (a - b) < -nothing * (a - b).abs());
         }
     }
     count

@@ -35,7 +35,7 @@ pub trait Optimised: Send + Sync {
 
     /// Places where its sheets are not in the model's depth order.
     fn order_inversions(&self) -> usize {
-        order_inversions(&self.sight().image, self.relief()) + self.depths().solved.broken
+        order_inversions(self.sight(), self.relief()) + self.depths().solved.broken
     }
 
     /// What crosses in the mesh before it is cut, if the whole mesh was optimised.

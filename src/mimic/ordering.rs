@@ -13,8 +13,8 @@
 //! rows of the program from the start, the rest only where a solution breaks them.
 
 use crate::geom::{barycentric, segment_crossing};
-use crate::groups::{Anchor, Groups, anchor};
-use crate::index::{CellId, FaceId, GroupId, SupportId, VertexId};
+use crate::groups::{Anchor, anchor};
+use crate::index::{CellId, FaceId, GroupId, VertexId};
 use crate::sight::Sight;
 use crate::viewmap::{Cell, Target, ViewMap};
 use glam::DVec2;
@@ -46,14 +46,14 @@ pub struct Orders {
     pub nearest: usize,
 }
 
-/// Orders at all events of one view, for every support that carries both faces; and at the ends of sides of cells where sheets
-/// meet in the relief: merging thin cells has moved some of these off their faces.
+/// Orders at all events of one view, in every group that carries both faces and between groups that meet; and at the ends of sides
+/// of cells where sheets meet in the relief: merging thin cells has moved some of these off their faces.
 pub fn orders(sight: &Sight) -> Orders {
     let (target, map) = (&sight.image.target, &sight.image.map);
     let finder = Finder {
         target,
         apart: APART / map.plane.focal,
-        lookup: FaceGroups::new(map, &sight.groups),
+        lookup: FaceGroups::new(sight),
     };
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
     for pair in overlapping(target, &seen_faces(map)) {
@@ -61,7 +61,7 @@ pub fn orders(sight: &Sight) -> Orders {
         edges.extend(finder.edges_crossing(pair));
     }
     let mut found = sorted(vertices, edges);
-    found.all.extend(at_sides(sight));
+    found.all.extend(at_seams(sight));
     found
 }
 
@@ -81,30 +81,23 @@ pub(super) fn sorted(mut vertices: Vec<VertexEvent>, mut edges: Vec<(EdgePair, O
     }
 }
 
-/// Orders at both ends of all sides at which sheets of one support meet.
-fn at_sides(sight: &Sight) -> Vec<Order> {
+/// Orders at both ends of all sides at which sheets of one layer meet.
+fn at_seams(sight: &Sight) -> Vec<Order> {
     let Sight { image, groups, .. } = sight;
     let (target, map) = (&image.target, &image.map);
     let mut orders = Vec::new();
-    for (c, cell) in map.all() {
-        for (k, n) in map.neighbours[c].iter().enumerate() {
-            let Some(n) = n.filter(|n| *n > c) else {
-                continue;
-            };
-            let (Some(face), Some(other)) = (cell.face, map.cells[n].face) else {
-                continue;
-            };
-            let (Some(g), Some(h)) = (groups.of_cell[c], groups.of_cell[n]) else {
-                continue;
-            };
-            if face == other || cell.support != map.cells[n].support {
-                continue;
-            }
-            for end in [k, (k + 1) % 3] {
-                let q = map.points[cell.corners[end]];
-                let at = [face, other].map(|f| anchor(target, f, q));
-                orders.extend(order(at, [g, h], TOGETHER_MM).map(|o| o.1));
-            }
+    for (c, k, n) in sight.seams() {
+        let cells = [c, n];
+        let [Some(face), Some(other)] = cells.map(|c| map.cells[c].face) else {
+            continue;
+        };
+        let [Some(g), Some(h)] = cells.map(|c| groups.of_cell[c]) else {
+            continue;
+        };
+        for end in [k, (k + 1) % 3] {
+            let q = map.points[map.cells[c].corners[end]];
+            let at = [face, other].map(|f| anchor(target, f, q));
+            orders.extend(order(at, [g, h], TOGETHER_MM).map(|o| o.1));
         }
     }
     orders
@@ -195,8 +188,8 @@ impl Finder<'_> {
         events
     }
 
-    /// The order of two faces on the ray `q` on every support that carries both, and whether the first is behind. The ray need
-    /// not meet the support: where an outline cuts the polygon, its far corners hold the rest in order.
+    /// The order of two faces on the ray `q` in all groups that they need one in, and whether the first is behind. The ray need
+    /// not meet the group: where an outline cuts the polygon, its far corners hold the rest in order.
     fn orders(&self, faces: [FaceId; 2], q: DVec2) -> Vec<(bool, Order)> {
         let common = self.lookup.common(faces);
         if common.is_empty() {
@@ -236,34 +229,42 @@ pub(super) fn overlapping(target: &Target, faces: &[FaceId]) -> Vec<[FaceId; 2]>
     pairs
 }
 
-/// The group of a face on a support.
+/// The groups of faces, and which groups meet.
 struct FaceGroups {
-    /// `(face, support, group)`, sorted.
-    entries: Vec<(FaceId, SupportId, GroupId)>,
+    /// `(face, group)`, sorted.
+    entries: Vec<(FaceId, GroupId)>,
+    /// Pairs of different groups with a common seam, each way round, sorted.
+    meeting: Vec<[GroupId; 2]>,
 }
 
 impl FaceGroups {
-    fn new(map: &ViewMap, groups: &Groups) -> Self {
-        let entry =
-            |(c, cell): (CellId, &Cell)| Some((cell.face?, cell.support?, groups.of_cell[c]?));
-        let mut entries: Vec<_> = map.all().filter_map(entry).collect();
+    fn new(sight: &Sight) -> Self {
+        let of_cell = &sight.groups.of_cell;
+        let entry = |(c, cell): (CellId, &Cell)| Some((cell.face?, of_cell[c]?));
+        let mut entries: Vec<_> = sight.image.map.all().filter_map(entry).collect();
         entries.sort_unstable();
         entries.dedup();
-        Self { entries }
+        let pair = |(c, _, n): (CellId, usize, CellId)| Some([of_cell[c]?, of_cell[n]?]);
+        let different = sight.seams().filter_map(pair).filter(|[g, h]| g != h);
+        let mut meeting: Vec<_> = different.flat_map(|[g, h]| [[g, h], [h, g]]).collect();
+        meeting.sort_unstable();
+        meeting.dedup();
+        Self { entries, meeting }
     }
 
-    fn of(&self, face: FaceId) -> &[(FaceId, SupportId, GroupId)] {
+    fn of(&self, face: FaceId) -> &[(FaceId, GroupId)] {
         let first = self.entries.partition_point(|e| e.0 < face);
         let past = self.entries.partition_point(|e| e.0 <= face);
         &self.entries[first..past]
     }
 
-    /// The groups of two faces on every support that carries both.
+    /// The groups in which two faces need an order: in one that carries both, and in two that meet. Those that do not are on different
+    /// supports, on parts between which the layer jumps, or apart in the image: nothing of theirs can cross.
     fn common(&self, [a, b]: [FaceId; 2]) -> Vec<[GroupId; 2]> {
         let mut pairs = Vec::new();
         for x in self.of(a) {
-            let same = self.of(b).iter().filter(|y| x.1 == y.1);
-            pairs.extend(same.map(|y| [x.2, y.2]));
+            let groups = self.of(b).iter().map(|y| [x.1, y.1]);
+            pairs.extend(groups.filter(|p| p[0] == p[1] || self.meeting.binary_search(p).is_ok()));
         }
         pairs
     }

@@ -137,6 +137,35 @@ fn a_layer_that_jumps_behind_ridges_ends_a_group_there() {
     assert!(error.is_some_and(|deg| deg < 6.0), "{error:?} degrees");
 }
 
+/// A ball that hides part of another on ridges between which the layer jumps against the model's order: parts on two ridges cannot cross,
+/// so nothing orders them, and one piece fits.
+#[test]
+fn parts_on_two_ridges_have_no_order() {
+    let text = "(models: [(name: \"m\", file: \"balls.obj\", place: Fit(height: 50, at: (0, 0, 15)))],
+        views: [(name: \"left\", eye: (-320, -320, 45), models: [\"m\"])],
+        supports: [Wave(width: 90, height: 90, thickness: 5, heights: Formula(\"22 * acos(cos(x / 4)) / 3.14159\"), depth: (front: 4))],
+        energy: Curvature(),
+        output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))";
+    let scene = scene::resolve(text, &read_balls(DVec3::new(-14.0, -30.0, 4.0)));
+    let scene = scene.unwrap_or_else(|problems| panic!("{problems:?}"));
+    let report = report(&built(&scene.value));
+    let certificate = &report["views"][0]["certificate"];
+    assert_eq!(certificate["order_inversions"], 0, "{certificate}");
+    assert_eq!(certificate["coverage"], 1.0, "{certificate}");
+}
+
+/// The file of two balls.
+fn read_balls(second: DVec3) -> impl Fn(&str) -> Result<Vec<u8>, Diagnostic> {
+    move |name| match name {
+        "balls.obj" => {
+            let mut both = ball(DVec3::ZERO, 20.0, 16);
+            both.append(&ball(second, 16.0, 14));
+            Ok(obj(&both))
+        }
+        _ => Err(Diagnostic::error(format!("no file {name}"))),
+    }
+}
+
 /// Two balls before a plate whose outlines lie on it, built with these steps.
 fn two_balls(second: DVec3, steps: &str) -> serde_json::Value {
     let text = format!(
@@ -146,15 +175,8 @@ fn two_balls(second: DVec3, steps: &str) -> serde_json::Value {
          energy: Normal(steps: {steps}),\n\
          output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64))"
     );
-    let read = |name: &str| match name {
-        "balls.obj" => {
-            let mut both = ball(DVec3::ZERO, 20.0, 16);
-            both.append(&ball(second, 16.0, 14));
-            Ok(obj(&both))
-        }
-        _ => Err(Diagnostic::error(format!("no file {name}"))),
-    };
-    let scene = scene::resolve(&text, &read).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let scene = scene::resolve(&text, &read_balls(second))
+        .unwrap_or_else(|problems| panic!("{problems:?}"));
     let report = report(&built(&scene.value));
     report["views"][0].clone()
 }

@@ -310,7 +310,7 @@ fn the_curvature_energy_keeps_separate_parts_in_order() {
             outcome.depths.solved
         );
         assert!(bound_violation_mm(&outcome.sight, &outcome.relief) < 1e-6);
-        order_inversions(&outcome.sight.image, &outcome.relief)
+        order_inversions(&outcome.sight, &outcome.relief)
     };
     let free = inversions(false);
     assert!(free > 10, "{free} places where nothing keeps the order");

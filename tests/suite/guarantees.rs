@@ -190,7 +190,7 @@ fn sheets_keep_their_order_on_every_ray() {
     let setting = contoured(Datum::Plane);
     let with = setting.solved(ENERGIES[0]);
     assert_eq!(with.depths.solved.broken, 0, "{:?}", with.depths.solved);
-    assert_eq!(order_inversions(&with.sight.image, &with.relief), 0);
+    assert_eq!(order_inversions(&with.sight, &with.relief), 0);
     let (wrong, met) = inverted(&setting, &with, 3000);
     assert!(met > 300 && wrong == 0, "{wrong} of {met}");
     // The same count must find what is wrong when nothing keeps the order.
@@ -202,7 +202,7 @@ fn sheets_keep_their_order_on_every_ray() {
     let without = setting.solved(free);
     let (wrong, met) = inverted(&setting, &without, 3000);
     assert!(wrong > 10, "{wrong} of {met}");
-    assert!(order_inversions(&without.sight.image, &without.relief) > 10);
+    assert!(order_inversions(&without.sight, &without.relief) > 10);
 }
 
 #[test]
