@@ -3,11 +3,15 @@
 //! The tree and its traversal are f32 with boxes padded outwards; the triangle test is f64 and watertight
 //! (Woop, Benthin & Wald 2013), so a ray through a shared edge or vertex hits one of the faces there. The f32 ray begins just before
 //! the mesh: from an eye hundreds of metres away it would pass boxes by.
+//!
+//! `cargo bench --bench rays` counts rays a second. On the forest of `four-creatures` (267,000 triangles, one core of a cloud machine) 7.4 million
+//! from an eye and 3.1 million towards a sky, with two children to a node 6.8 and 1.8; embree, in f32, 14.2 and 7.3. A slower build of the
+//! tree gains nothing, and leaves of one face instead of three lose a seventh.
 
 use crate::index::FaceId;
 use crate::mesh::TriMesh;
-use glam::{DVec3, Vec3A};
-use obvhs::{BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder::build_bvh2, ray::Ray};
+use glam::{DVec3, Vec3A, Vec3Swizzles};
+use obvhs::{BvhBuildParams, aabb::Aabb, cwbvh::CwBvh, cwbvh::builder::build_cwbvh, ray::Ray};
 use std::time::Duration;
 
 /// Where a ray meets a face: `origin + t * direction`, `t > 0`.
@@ -19,8 +23,10 @@ pub struct Hit {
 
 /// A mesh ready for rays. Deterministic: the same mesh gives the same answers whatever the thread count.
 pub struct Bvh {
-    tree: Bvh2,
+    tree: CwBvh,
+    /// In the order of the tree's leaves, with their faces.
     triangles: Vec<[DVec3; 3]>,
+    faces: Vec<FaceId>,
     /// A ball around the mesh, a little wide.
     centre: DVec3,
     radius: f64,
@@ -29,22 +35,25 @@ pub struct Bvh {
 /// How much wider than its mesh a tree's ball is.
 const WIDE: f64 = 1.01;
 
+/// Parameter at which the tree's ray begins before the true one: the tree passes by boxes that end within 1e-4 of its beginning.
+const BEFORE: f64 = 2e-4;
+
 impl Bvh {
     pub fn new(mesh: &TriMesh) -> Self {
-        let triangles: Vec<[DVec3; 3]> = FaceId::all(mesh.faces.len())
-            .map(|f| mesh.corners(f))
-            .collect();
+        let corners = FaceId::all(mesh.faces.len()).map(|f| mesh.corners(f));
         let (lo, hi) = mesh.bounds().unwrap_or_default();
         let pad = 1e-6 * ((hi - lo).length() + hi.abs().max(lo.abs()).length());
-        let boxes: Vec<Aabb> = triangles.iter().map(|t| padded_box(t, pad)).collect();
-        let tree = build_bvh2(
+        let boxes: Vec<Aabb> = corners.map(|t| padded_box(&t, pad)).collect();
+        let tree = build_cwbvh(
             &boxes,
             BvhBuildParams::fast_build(),
             &mut Duration::default(),
         );
+        let faces: Vec<FaceId> = tree.primitive_indices.iter().map(|i| FaceId(*i)).collect();
         Self {
+            triangles: faces.iter().map(|f| mesh.corners(*f)).collect(),
+            faces,
             tree,
-            triangles,
             centre: (lo + hi) / 2.0,
             radius: WIDE * ((hi - lo).length() / 2.0 + pad),
         }
@@ -53,11 +62,12 @@ impl Bvh {
     /// The ray from where it may first meet the mesh, and the parameter there.
     fn near_ray(&self, origin: DVec3, direction: DVec3) -> (Ray, f64) {
         let along = (self.centre - origin).dot(direction) - self.radius * direction.length();
-        let start = (along / direction.length_squared()).max(0.0);
+        let start = (along / direction.length_squared()).max(-BEFORE);
         let origin = origin + start * direction;
         let ray = Ray::new_inf(
             Vec3A::from(origin.as_vec3()),
-            Vec3A::from(direction.as_vec3()),
+            // The tree takes the sign of an inverse for that of its direction: they differ at -0.
+            Vec3A::from(direction.as_vec3()) + Vec3A::ZERO,
         );
         (ray, start)
     }
@@ -82,8 +92,9 @@ impl Bvh {
         let mut nearest = obvhs::ray::RayHit::none();
         let (ray, start) = self.near_ray(origin, direction);
         self.tree.ray_traverse(ray, &mut nearest, |_, slot| {
-            let face = FaceId(self.tree.primitive_indices[slot]);
-            let Some(t) = woop.hit(&self.triangles[face]).filter(|_| accept(face)) else {
+            let hit = woop.hit(&self.triangles[slot]);
+            let face = self.faces[slot];
+            let Some(t) = hit.filter(|_| accept(face)) else {
                 return f32::INFINITY;
             };
             if best.is_none_or(|b| t < b.t || (t == b.t && face < b.face)) {
@@ -104,8 +115,11 @@ impl Bvh {
         let mut hits = Vec::new();
         self.tree
             .ray_traverse_anyhit(self.near_ray(origin, direction).0, |_, slot| {
-                let face = FaceId(self.tree.primitive_indices[slot]);
-                hits.extend(woop.hit(&self.triangles[face]).map(|t| Hit { face, t }));
+                let hit = woop.hit(&self.triangles[slot]);
+                hits.extend(hit.map(|t| Hit {
+                    face: self.faces[slot],
+                    t,
+                }));
             });
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
         hits
@@ -124,8 +138,7 @@ impl Bvh {
         // Rounded up well past f32 error, as in `first_hit_where`.
         ray.tmax = ((t_max - start) * (1.0 + 1e-5)) as f32;
         let free = self.tree.ray_traverse_miss(ray, |_, slot| {
-            let face = FaceId(self.tree.primitive_indices[slot]);
-            let hit = woop.hit(&self.triangles[face]);
+            let hit = woop.hit(&self.triangles[slot]);
             // Any number below the ray's end counts as a hit, infinity never does.
             if hit.is_some_and(|t| t < t_max) {
                 0.0
@@ -143,42 +156,51 @@ fn padded_box(triangle: &[DVec3; 3], pad: f64) -> Aabb {
     Aabb::new(Vec3A::from(lo.as_vec3()), Vec3A::from(hi.as_vec3()))
 }
 
-/// A ray in the sheared frame of the watertight test: its direction is the largest axis.
+/// A ray in the sheared frame of the watertight test: its direction is the largest axis. The test's sign is that of the axes' order and
+/// nobody asks for it, so that there are three orders.
 struct WoopRay {
     origin: DVec3,
-    axes: [usize; 3],
+    largest: LargestAxis,
     shear: DVec3,
+}
+
+/// The largest axis of a direction.
+enum LargestAxis {
+    X,
+    Y,
+    Z,
 }
 
 impl WoopRay {
     fn new(origin: DVec3, direction: DVec3) -> Self {
-        let kz = direction.abs().max_position();
-        let (mut kx, mut ky) = ((kz + 1) % 3, (kz + 2) % 3);
-        if direction[kz] < 0.0 {
-            std::mem::swap(&mut kx, &mut ky);
-        }
-        let shear = DVec3::new(
-            direction[kx] / direction[kz],
-            direction[ky] / direction[kz],
-            1.0 / direction[kz],
-        );
+        let (largest, [x, y, z]) = match direction.abs().max_position() {
+            0 => (LargestAxis::X, direction.yzx().to_array()),
+            1 => (LargestAxis::Y, direction.zxy().to_array()),
+            _ => (LargestAxis::Z, direction.to_array()),
+        };
         Self {
             origin,
-            axes: [kx, ky, kz],
-            shear,
+            largest,
+            shear: DVec3::new(x / z, y / z, 1.0 / z),
         }
     }
 
     #[inline]
-    fn hit(&self, triangle: &[DVec3; 3]) -> Option<f64> {
-        // Written out: this is the innermost loop of everything, and `map` over arrays is not always inlined.
-        let [kx, ky, kz] = self.axes;
-        let [a, b, c] = triangle;
+    fn hit(&self, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
+        // Axes by a branch that is the same for a whole ray: indexing by them would go through memory in the innermost loop of all.
         let (a, b, c) = (*a - self.origin, *b - self.origin, *c - self.origin);
-        let (az, bz, cz) = (a[kz], b[kz], c[kz]);
-        let (ax, ay) = (a[kx] - self.shear.x * az, a[ky] - self.shear.y * az);
-        let (bx, by) = (b[kx] - self.shear.x * bz, b[ky] - self.shear.y * bz);
-        let (cx, cy) = (c[kx] - self.shear.x * cz, c[ky] - self.shear.y * cz);
+        match self.largest {
+            LargestAxis::X => self.hit_along_z(a.yzx(), b.yzx(), c.yzx()),
+            LargestAxis::Y => self.hit_along_z(a.zxy(), b.zxy(), c.zxy()),
+            LargestAxis::Z => self.hit_along_z(a, b, c),
+        }
+    }
+
+    #[inline]
+    fn hit_along_z(&self, a: DVec3, b: DVec3, c: DVec3) -> Option<f64> {
+        let (ax, ay) = (a.x - self.shear.x * a.z, a.y - self.shear.y * a.z);
+        let (bx, by) = (b.x - self.shear.x * b.z, b.y - self.shear.y * b.z);
+        let (cx, cy) = (c.x - self.shear.x * c.z, c.y - self.shear.y * c.z);
         let u = cx * by - cy * bx;
         let v = ax * cy - ay * cx;
         let w = bx * ay - by * ax;
@@ -189,7 +211,7 @@ impl WoopRay {
         if det == 0.0 {
             return None;
         }
-        let t = (u * az + v * bz + w * cz) * self.shear.z / det;
+        let t = (u * a.z + v * b.z + w * c.z) * self.shear.z / det;
         (t > 0.0).then_some(t)
     }
 }

@@ -75,7 +75,7 @@ pub struct Camouflage {
 
 /// Measures one view. No eye stands below `floor` (mm) but the view's own and those at its height.
 pub fn camouflage(view: &View, forest: &TriMesh, forest_bvh: &Bvh, floor: f64) -> Camouflage {
-    let target = view.target();
+    let target = view.whole_target();
     let pair = Comparison {
         target: &target,
         target_bvh: &Bvh::new(&target),

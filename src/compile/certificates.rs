@@ -91,14 +91,17 @@ pub(crate) fn certificates(
         seen: built.scene.seen_arcmin,
     };
     let finished = Finished::new(&built.forest, &built.bvh, built.field, names, sharpness);
-    let (views, unseen): (Vec<_>, Vec<_>) = (0..built.sights.len())
-        .into_par_iter()
-        .map(|v| certificate(built, settled, v, &finished))
-        .unzip();
+    let of_views = || -> (Vec<_>, Vec<_>) {
+        let views = (0..built.sights.len()).into_par_iter();
+        let of_view = |v| certificate(built, settled, v, &finished);
+        views.map(of_view).unzip()
+    };
+    let of_all = || rayon::join(|| camouflages(built), || print_checks(built, pieces));
+    let ((views, unseen), (camouflage, print)) = rayon::join(of_views, of_all);
     Certificates {
         views,
-        camouflage: camouflages(built),
-        print: print_checks(built, pieces),
+        camouflage,
+        print,
         unseen: unseen.concat(),
     }
 }

@@ -12,6 +12,7 @@ use crate::sight::Sight;
 use crate::support::SupportKind;
 use crate::view::View;
 use crate::viewmap::Image;
+use rayon::prelude::*;
 
 /// Width of camouflage.png, pixels.
 const CAMOUFLAGE_PX: u32 = 1600;
@@ -50,7 +51,7 @@ pub(crate) fn camouflages(built: &Built) -> Vec<Camouflage> {
         SupportKind::Pillar { .. } | SupportKind::Body { .. } => None,
     });
     let floor = floor.unwrap_or(whole.bounds().0.z);
-    let views = scene.views.iter();
+    let views = scene.views.par_iter();
     views
         .map(|v| camouflage(v, whole.mesh(), &built.bvh, floor))
         .collect()

@@ -20,6 +20,7 @@ use crate::mesh::TriMesh;
 use crate::render::{camera, thumbnail};
 use crate::scene::Scene;
 use crate::view::View;
+use rayon::prelude::*;
 
 /// Grey of base and bare pillars in coloured files.
 pub(crate) const BARE_COLOUR: [u8; 3] = [198, 194, 186];
@@ -32,17 +33,30 @@ pub(crate) fn forest_files(
     pieces: Vec<OutputFile>,
     certificates: &Certificates,
 ) -> Vec<OutputFile> {
-    let scene = built.scene;
-    let mut files = printable_files(scene, &built.forest);
-    files.extend(surface_files(scene, &built.shapes));
-    files.extend(section_files(scene, &built.shapes));
-    files.extend(turntable_file(built));
+    let (scene, output) = (built.scene, &built.scene.output);
+    let printable = || printable_files(scene, &built.forest);
+    let surfaces = || surface_files(scene, &built.shapes);
+    let sections = || section_files(scene, &built.shapes);
+    let plan = || match output.plan {
+        true => plan_files(scene, &rooms(&certificates.views)),
+        false => Vec::new(),
+    };
+    let camouflage = || camouflage_files(scene, &certificates.camouflage);
+    let turned = || turntable_file(built).into_iter().collect();
+    let before: [FileMaker; 4] = [&printable, &surfaces, &sections, &turned];
+    let after: [FileMaker; 2] = [&plan, &camouflage];
+    let (mut files, rest) = rayon::join(|| all(&before), || all(&after));
     files.extend(pieces);
-    if scene.output.plan {
-        files.extend(plan_files(scene, &rooms(&certificates.views)));
-    }
-    files.extend(camouflage_files(scene, &certificates.camouflage));
+    files.extend(rest);
     files
+}
+
+/// Makes some of the files.
+type FileMaker<'a> = &'a (dyn Fn() -> Vec<OutputFile> + Sync);
+
+/// Files of several jobs, side by side.
+fn all(jobs: &[FileMaker]) -> Vec<OutputFile> {
+    jobs.par_iter().flat_map_iter(|job| job()).collect()
 }
 
 fn parts<'a>(scene: &Scene, forest: &'a Forest) -> Vec<Part<'a>> {
@@ -87,29 +101,27 @@ fn printable_files(scene: &Scene, forest: &Forest) -> Vec<OutputFile> {
         ],
         ..Metadata::default()
     };
+    let output = &scene.output;
     let three_mf = || {
         let picture = thumbnail(&mesh, &Bvh::new(&mesh), Some(&colours), THUMBNAIL_PX);
-        OutputFile::new("forest.3mf", write_3mf(&parts, &meta, Some(&picture)))
+        let bytes = write_3mf(&parts, &meta, Some(&picture));
+        vec![OutputFile::new("forest.3mf", bytes)]
+    };
+    let stl = || {
+        let bytes = write_stl(&forest.whole, &scene.title);
+        vec![OutputFile::new("forest.stl", bytes)]
     };
     let glb = || {
-        OutputFile::new(
-            "forest.glb",
-            write_glb(
-                &parts,
-                &scene.views.iter().map(view_camera).collect::<Vec<_>>(),
-            ),
-        )
+        let cameras: Vec<Camera> = scene.views.iter().map(view_camera).collect();
+        vec![OutputFile::new("forest.glb", write_glb(&parts, &cameras))]
     };
-    let output = &scene.output;
-    let mut files = Vec::new();
-    files.extend(output.forest_3mf.then(three_mf));
-    files.extend(
-        output
-            .forest_stl
-            .then(|| OutputFile::new("forest.stl", write_stl(&forest.whole, &scene.title))),
-    );
-    files.extend(output.forest_glb.then(glb));
-    files
+    let jobs: [(bool, FileMaker); 3] = [
+        (output.forest_3mf, &three_mf),
+        (output.forest_stl, &stl),
+        (output.forest_glb, &glb),
+    ];
+    let wanted: Vec<FileMaker> = jobs.iter().filter(|j| j.0).map(|j| j.1).collect();
+    all(&wanted)
 }
 
 /// The optimised surfaces as PLY and OBJ, if they are wanted.

@@ -8,6 +8,7 @@ use crate::render::{
 };
 use crate::scene::Scene;
 use crate::view::View;
+use rayon::prelude::*;
 
 /// One view's pictures (PNG) and figures.
 pub(crate) struct Pictures {
@@ -29,13 +30,9 @@ pub(crate) fn drawn(built: &Built) -> Vec<Pictures> {
             lights: (output.lights).then(|| light_pictures(v, mesh, bvh)),
         }
     };
-    built
-        .scene
-        .views
-        .iter()
-        .zip(built.shapes.iter().map(AsRef::as_ref))
-        .map(of_view)
-        .collect()
+    let shapes = built.shapes.par_iter().map(AsRef::as_ref);
+    let views = built.scene.views.par_iter().zip(shapes);
+    views.map(of_view).collect()
 }
 
 /// `turntable.png`, if it is wanted.

@@ -6,6 +6,7 @@
 use super::program::{Program, Row};
 use crate::index::indices;
 use crate::mesh::DisjointSets;
+use std::mem::take;
 
 indices! {
     /// A block of a program.
@@ -21,8 +22,105 @@ pub(crate) struct ProgramBlock {
     pub rows: Vec<usize>,
 }
 
-/// The blocks, by their first variables.
-pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
+/// All blocks of a program.
+pub(crate) struct Blocks {
+    /// By their first variables.
+    pub all: Vec<ProgramBlock>,
+    /// Block of every unknown, and its place there.
+    home: Vec<BlockId>,
+    place: Vec<usize>,
+    /// So many rows of the program are in blocks.
+    rows: usize,
+}
+
+impl Blocks {
+    pub(crate) fn new(program: &Program) -> Self {
+        let members = parts(program).members();
+        let mut home = vec![BlockId(0); program.variables];
+        let mut place = vec![0; program.variables];
+        for (b, variables) in BlockId::all(members.len()).zip(&members) {
+            for (i, v) in variables.iter().enumerate() {
+                (home[*v], place[*v]) = (b, i);
+            }
+        }
+        let blocks = members.into_iter();
+        let mut made = Self {
+            all: blocks.map(|variables| empty(program, variables)).collect(),
+            home,
+            place,
+            rows: 0,
+        };
+        made.take_over(program);
+        made.add_rows(program);
+        made
+    }
+
+    /// All but the rows.
+    fn take_over(&mut self, program: &Program) {
+        for (i, (terms, value)) in program.equalities.iter().enumerate() {
+            let own = self.numbered(terms);
+            if let Some(block) = self.home_of(terms) {
+                block.equalities.push(i);
+                block.program.equalities.push((own, *value));
+            }
+        }
+        for terms in &program.factor {
+            let own = self.numbered(terms);
+            if let Some(block) = self.home_of(terms) {
+                block.program.factor.push(own);
+            }
+        }
+        let sizes = self.all.iter().map(|b| b.variables.len());
+        let mut entries: Vec<sprs::TriMat<f64>> =
+            sizes.map(|n| sprs::TriMat::new((n, n))).collect();
+        for (value, (i, j)) in &program.quadratic {
+            entries[self.home[i].at()].add_triplet(self.place[i], self.place[j], *value);
+        }
+        for (block, entries) in self.all.iter_mut().zip(entries) {
+            block.program.quadratic = entries.to_csc();
+        }
+    }
+
+    /// Takes over the rows that were added to the program; what they tie together becomes one block. Gives the blocks there were
+    /// before, if there is such a row.
+    pub(crate) fn add(&mut self, program: &Program) -> Option<Vec<ProgramBlock>> {
+        let home = |term: &(usize, f64)| self.home[term.0];
+        let within = |row: &Row| row.terms.iter().all(|t| home(t) == home(&row.terms[0]));
+        if program.rows[self.rows..].iter().all(within) {
+            self.add_rows(program);
+            return None;
+        }
+        let before = take(&mut self.all);
+        *self = Self::new(program);
+        Some(before)
+    }
+
+    fn add_rows(&mut self, program: &Program) {
+        for (i, row) in program.rows.iter().enumerate().skip(self.rows) {
+            let terms = self.numbered(&row.terms);
+            // A row without terms says nothing of any unknown.
+            if let Some(block) = self.home_of(&row.terms) {
+                block.rows.push(i);
+                block.program.rows.push(Row {
+                    terms,
+                    ..row.clone()
+                });
+            }
+        }
+        self.rows = program.rows.len();
+    }
+
+    fn home_of(&mut self, terms: &[(usize, f64)]) -> Option<&mut ProgramBlock> {
+        terms.first().map(|t| &mut self.all[self.home[t.0].at()])
+    }
+
+    fn numbered(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        terms.iter().map(|(v, c)| (self.place[*v], *c)).collect()
+    }
+}
+
+/// The unknowns that hang together.
+fn parts(program: &Program) -> DisjointSets {
     let mut sets = DisjointSets::new(program.variables);
     let mut join = |terms: &[(usize, f64)]| {
         terms
@@ -34,55 +132,7 @@ pub(crate) fn blocks(program: &Program) -> Vec<ProgramBlock> {
     for (_, (i, j)) in &program.quadratic {
         sets.join(i as u32, j as u32);
     }
-    let blocks = sets.members();
-    // Block of every unknown, and its place there.
-    let mut home_of = vec![BlockId(0); program.variables];
-    let mut place = vec![0; program.variables];
-    for (b, variables) in BlockId::all(blocks.len()).zip(&blocks) {
-        for (i, v) in variables.iter().enumerate() {
-            (home_of[*v], place[*v]) = (b, i);
-        }
-    }
-    let numbered = |terms: &[(usize, f64)]| terms.iter().map(|(v, c)| (place[*v], *c)).collect();
-    let mut made: Vec<ProgramBlock> = blocks
-        .into_iter()
-        .map(|variables| empty(program, variables))
-        .collect();
-    let home = |terms: &[(usize, f64)]| terms.first().map(|t| home_of[t.0]);
-    for (i, (terms, value)) in program.equalities.iter().enumerate() {
-        let Some(block) = home(terms).map(|b| &mut made[b]) else {
-            continue;
-        };
-        block.equalities.push(i);
-        block.program.equalities.push((numbered(terms), *value));
-    }
-    for (i, row) in program.rows.iter().enumerate() {
-        // A row without terms says nothing of any unknown.
-        let Some(block) = home(&row.terms).map(|b| &mut made[b]) else {
-            continue;
-        };
-        block.rows.push(i);
-        block.program.rows.push(Row {
-            terms: numbered(&row.terms),
-            ..row.clone()
-        });
-    }
-    for terms in &program.factor {
-        if let Some(b) = home(terms) {
-            made[b].program.factor.push(numbered(terms));
-        }
-    }
-    let mut entries: Vec<sprs::TriMat<f64>> = made
-        .iter()
-        .map(|b| sprs::TriMat::new((b.variables.len(), b.variables.len())))
-        .collect();
-    for (value, (i, j)) in &program.quadratic {
-        entries[home_of[i]].add_triplet(place[i], place[j], *value);
-    }
-    for (block, entries) in made.iter_mut().zip(entries) {
-        block.program.quadratic = entries.to_csc();
-    }
-    made
+    sets
 }
 
 fn empty(program: &Program, variables: Vec<usize>) -> ProgramBlock {

@@ -19,7 +19,8 @@
 use super::depths::{Depths, typical_width};
 use super::lazily::MARGIN;
 use super::program::{Program, Quadratic, Row, RowKind};
-use super::solve::{SolveError, Solved, solve};
+use super::solve::{SolveError, Solved};
+use super::solving::solve;
 use crate::groups::{Bound, Groups};
 use crate::index::SupportId;
 use crate::mesh::DisjointSets;

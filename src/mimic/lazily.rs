@@ -1,9 +1,9 @@
 //! Solving with curved conditions: rows are added only where a solution needs them.
 
 use super::conditions::{Condition, Conditions};
-use super::dual::Dual;
 use super::program::{Program, Row};
-use super::solve::{Method, Solution, SolveError, Solved, solve, solve_again};
+use super::solve::{Method, SolveError, Solved};
+use super::solving::Solving;
 
 /// Log depth that a condition may be broken by, times the view's focal length: a quarter of a nanometre at 250 mm, above the rounding
 /// of sums.
@@ -41,8 +41,8 @@ pub(crate) fn solve_lazily(
     meaning: &Meaning,
     method: Method,
 ) -> Result<(Vec<f64>, Solved), SolveError> {
-    let mut solver = Solver::new(program, method);
-    let mut solution = solver.solve(program)?;
+    let mut solving = Solving::new(program, method);
+    let mut solution = solving.solve(program)?;
     let first = solution.solved.optimality.objective;
     let (mut rounds, before) = (0, program.rows.len());
     let mut urgent = conditions.urgent;
@@ -64,7 +64,7 @@ pub(crate) fn solve_lazily(
         rounds += 1;
         let old = program.rows.len();
         program.rows.extend(rows);
-        match solver.solve_again(program, &solution, old) {
+        match solving.solve(program) {
             Ok(better) => solution = better,
             // What the last solution breaks is counted below.
             Err(SolveError::Unsolved { .. }) => {
@@ -85,42 +85,4 @@ pub(crate) fn solve_lazily(
         ..solution.solved
     };
     Ok((solution.u, solved))
-}
-
-/// A program on its way through the rounds.
-struct Solver {
-    dual: Option<Dual>,
-}
-
-impl Solver {
-    fn new(program: &Program, method: Method) -> Self {
-        let dual = match method {
-            Method::DualWorkingSet => Dual::new(program),
-            Method::InteriorPoint => None,
-        };
-        Self { dual }
-    }
-
-    fn solve(&mut self, program: &Program) -> Result<Solution, SolveError> {
-        self.by_dual(program).map_or_else(|| solve(program), Ok)
-    }
-
-    fn solve_again(
-        &mut self,
-        program: &Program,
-        before: &Solution,
-        new_rows: usize,
-    ) -> Result<Solution, SolveError> {
-        let again = || solve_again(program, before, new_rows);
-        self.by_dual(program).map_or_else(again, Ok)
-    }
-
-    /// Once it is at its limits it stays there.
-    fn by_dual(&mut self, program: &Program) -> Option<Solution> {
-        let solution = self.dual.as_mut()?.solve(program);
-        if solution.is_none() {
-            self.dual = None;
-        }
-        solution
-    }
 }

@@ -28,6 +28,7 @@ mod ordering;
 mod program;
 mod sheets;
 mod solve;
+mod solving;
 
 pub use certificate::{Optimality, optimality};
 pub use conditions::Condition;
@@ -43,4 +44,5 @@ pub use opening::{Opening, Step, Tie};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
 pub use sheets::sheet_orders;
-pub use solve::{Method, Solution, SolveError, Solved, solve};
+pub use solve::{Method, Solution, SolveError, Solved};
+pub use solving::solve;

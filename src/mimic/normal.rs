@@ -84,12 +84,15 @@ pub(crate) fn depths(
         tangent: &tangent,
         focal: map.plane.focal,
     };
-    let (mut u, mut solved) =
-        solve_lazily(&mut program, conditions, &meaning, Method::InteriorPoint)?;
+    let method = match opening {
+        Some(_) => Method::DualWorkingSet,
+        None => Method::InteriorPoint,
+    };
+    let (mut u, mut solved) = solve_lazily(&mut program, conditions, &meaning, method)?;
     for _ in 0..options.reweight {
         let turned = |f: usize| faces.turned(f, &index, |i| u[i] * unit);
         program.quadratic = faces.energy(&index, variables, opening, &|f| reweighted(turned(f)));
-        (u, solved) = solve_lazily(&mut program, conditions, &meaning, Method::InteriorPoint)?;
+        (u, solved) = solve_lazily(&mut program, conditions, &meaning, method)?;
     }
     let (s, free) = depths(&u);
     let mu = match scaled {

@@ -1,7 +1,6 @@
-//! Solving a program: the only module that names `clarabel`.
+//! What a solution of a program is, and finding it by the interior point: the only module that names `clarabel`.
 
-use super::blocks::{ProgramBlock, blocks};
-use super::certificate::{Optimality, optimality};
+use super::certificate::Optimality;
 use super::conic::conic;
 use super::program::{Program, Row, RowKind};
 use clarabel::algebra::CscMatrix;
@@ -9,7 +8,6 @@ use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
     SupportedConeT, ZeroConeT,
 };
-use rayon::prelude::*;
 use sprs::{CsMat, TriMat};
 
 /// More iterations than any program met so far needed (15-60).
@@ -56,6 +54,17 @@ pub struct Solved {
     pub not_an_optimum: Option<&'static str>,
 }
 
+/// The solution of one block.
+#[derive(Clone, Debug)]
+pub(crate) struct SolvedBlock {
+    pub u: Vec<f64>,
+    /// Multipliers of rows and equalities.
+    pub z: Vec<f64>,
+    pub y: Vec<f64>,
+    pub method: Method,
+    pub iterations: u32,
+}
+
 /// A solved program.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -88,91 +97,6 @@ impl SolveError {
             other => other,
         }
     }
-}
-
-/// Solves the program, block by block.
-///
-/// # Errors
-/// If rows contradict each other or the solver gives up.
-pub fn solve(program: &Program) -> Result<Solution, SolveError> {
-    let nothing = Solution {
-        u: vec![0.0; program.variables],
-        z: Vec::new(),
-        y: vec![0.0; program.equalities.len()],
-        solved: Solved::default(),
-    };
-    solve_where(program, nothing, &|_| true)
-}
-
-/// Solves the program again to which rows were added from `new_rows` on: only blocks that these belong to.
-///
-/// # Errors
-/// As [`solve`].
-pub(crate) fn solve_again(
-    program: &Program,
-    before: &Solution,
-    new_rows: usize,
-) -> Result<Solution, SolveError> {
-    let changed = |b: &ProgramBlock| b.rows.last().is_some_and(|r| *r >= new_rows);
-    solve_where(program, before.clone(), &changed)
-}
-
-/// Solves the blocks that are `wanted`; the rest of `solution` stays.
-fn solve_where(
-    program: &Program,
-    mut solution: Solution,
-    wanted: &dyn Fn(&ProgramBlock) -> bool,
-) -> Result<Solution, SolveError> {
-    let blocks = blocks(program);
-    let count = blocks.len();
-    let todo: Vec<ProgramBlock> = blocks.into_iter().filter(wanted).collect();
-    let solved = all_solved(todo.par_iter().map(solve_block).collect())?;
-    solution.z.resize(program.rows.len(), 0.0);
-    for (block, part) in todo.iter().zip(&solved) {
-        let place = |to: &mut [f64], at: &[usize], from: &[f64]| {
-            at.iter().zip(from).for_each(|(i, v)| to[*i] = *v);
-        };
-        place(&mut solution.u, &block.variables, &part.u);
-        place(&mut solution.z, &block.rows, &part.z);
-        place(&mut solution.y, &block.equalities, &part.y);
-    }
-    let iterations = solved.iter().map(|p| p.iterations).max().unwrap_or(0);
-    solution.solved = Solved {
-        variables: program.variables,
-        rows: program.rows.len(),
-        blocks: count,
-        iterations: iterations.max(solution.solved.iterations),
-        optimality: optimality(program, &solution.u, &solution.z, &solution.y),
-        ..Solved::default()
-    };
-    Ok(solution)
-}
-
-/// All blocks, or what is wrong with them: the contradictions of all, or else the first failure, whatever the thread count.
-fn all_solved(
-    results: Vec<Result<SolvedBlock, SolveError>>,
-) -> Result<Vec<SolvedBlock>, SolveError> {
-    let (mut solved, mut contradicting, mut failed) = (Vec::new(), Vec::new(), None);
-    for result in results {
-        match result {
-            Ok(block) => solved.push(block),
-            Err(SolveError::Infeasible(rows)) => contradicting.push(rows),
-            Err(other) => failed = failed.or(Some(other)),
-        }
-    }
-    match (contradicting.is_empty(), failed) {
-        (false, _) => Err(SolveError::Infeasible(contradicting.concat())),
-        (true, Some(error)) => Err(error),
-        (true, None) => Ok(solved),
-    }
-}
-
-/// The solution of one block.
-struct SolvedBlock {
-    u: Vec<f64>,
-    z: Vec<f64>,
-    y: Vec<f64>,
-    iterations: u32,
 }
 
 /// A program as the solver takes it: `min x'Px / 2 + q'x`, `A x + slack = b`, slacks in cones.
@@ -231,8 +155,11 @@ impl Standard {
     }
 }
 
-fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
-    let program = &block.program;
+/// Solves one block.
+///
+/// # Errors
+/// If rows contradict each other or the solver gives up.
+pub(crate) fn by_interior_point(program: &Program) -> Result<SolvedBlock, SolveError> {
     let Standard {
         p,
         q,
@@ -255,6 +182,7 @@ fn solve_block(block: &ProgramBlock) -> Result<SolvedBlock, SolveError> {
             u: solution.x[..program.variables].to_vec(),
             z: z.to_vec(),
             y: y.to_vec(),
+            method: Method::InteriorPoint,
             iterations: solution.iterations,
         }),
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {

@@ -58,14 +58,15 @@ pub(super) fn mixed(colour: [u8; 3], other: [u8; 3], share: f64) -> [u8; 3] {
     })
 }
 
-/// Casts four rays through every pixel that differs from a neighbour, and takes their mean. `N` pictures at once;
-/// `cast` gives all of them at a place in pixels from the top left corner, `size` is their width.
+/// Smooths every pixel that differs from a neighbour: half of it is its centre, half its four corners, which it shares with the pixels
+/// around. `N` pictures at once; `cast` gives all of them at a place in pixels from the top left corner, on the border too; `size` is
+/// their width.
 pub(super) fn smoothed<const N: usize>(
     centres: &[[Rgb; N]],
     size: usize,
     cast: impl Fn(f64, f64) -> [Rgb; N] + Sync,
 ) -> Vec<[Rgb; N]> {
-    let rough = |k: usize| {
+    let is_rough = |k: usize| {
         let (x, y) = (k % size, k / size);
         let around = [
             (x > 0).then(|| k - 1),
@@ -78,17 +79,30 @@ pub(super) fn smoothed<const N: usize>(
             .flatten()
             .any(|other| differ(&centres[k], &centres[other]))
     };
+    let pixels = 0..centres.len();
+    let rough: Vec<bool> = pixels.clone().into_par_iter().map(is_rough).collect();
+    let (across, down) = (size + 1, centres.len() / size + 1);
+    let corner = |c: usize| {
+        let (x, y) = (c % across, c / across);
+        let pixel = |x: usize, y: usize| x < size && y + 1 < down && rough[y * size + x];
+        let left = x > 0 && (pixel(x - 1, y) || y > 0 && pixel(x - 1, y - 1));
+        let right = pixel(x, y) || y > 0 && pixel(x, y - 1);
+        (left || right).then(|| cast(x as f64, y as f64))
+    };
+    let corners: Vec<Option<[Rgb; N]>> = (0..across * down).into_par_iter().map(corner).collect();
     let mean = |k: usize| {
-        let (x, y) = ((k % size) as f64, (k / size) as f64);
-        let four = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
-            .map(|(dx, dy)| cast(x + dx, y + dy));
+        let c = k / size * across + k % size;
+        let four = [c, c + 1, c + across, c + across + 1].map(|c| corners[c]);
         std::array::from_fn(|p| {
-            std::array::from_fn(|c| four.iter().map(|f| f[p][c]).sum::<f32>() / 4.0)
+            std::array::from_fn(|i| {
+                let sum: f32 = four.iter().flatten().map(|corner| corner[p][i]).sum();
+                centres[k][p][i] / 2.0 + sum / 8.0
+            })
         })
     };
-    (0..centres.len())
+    pixels
         .into_par_iter()
-        .map(|k| if rough(k) { mean(k) } else { centres[k] })
+        .map(|k| if rough[k] { mean(k) } else { centres[k] })
         .collect()
 }
 

@@ -40,7 +40,8 @@ pub fn thumbnail(
             return [shading::BACKGROUND];
         };
         // How open a place is changes slowly: it is probed once a pixel.
-        let open = open[(y as usize) * size + x as usize];
+        let [column, row] = [x, y].map(|at| (at as usize).min(size - 1));
+        let open = open[row * size + column];
         [studio.shade(&meet, sun, open)]
     };
     let centres: Vec<[Rgb; 1]> = (0..size * size)

@@ -2,7 +2,7 @@
 //!
 //! Takes a view, the finished forest and the lines where it was torn, gives a picture (target | forest | normal error with the
 //! lines) and the figures under it.
-//! The figures use one ray through every pixel's centre; the pictures are smoothed by four more where neighbours differ.
+//! The figures use one ray through every pixel's centre; the pictures are smoothed by its corners where neighbours differ.
 
 use crate::bvh::Bvh;
 use crate::diagram::drawing::Drawing;
@@ -79,7 +79,7 @@ pub fn view_pictures(
     );
     let lights = Lights::of(&plane);
     let panels = |look: Look| look.panels(&target, forest, colours, &lights);
-    let centres: Vec<[Rgb; 3]> = looks.iter().map(|l| panels(*l)).collect();
+    let centres: Vec<[Rgb; 3]> = looks.par_iter().map(|l| panels(*l)).collect();
     let pixels = smoothed(&centres, size, |x, y| panels(look(x, y)));
     let picture = compose(view, (plane, half), &likeness, steps, &pixels, size);
     (likeness, picture)

@@ -3,7 +3,7 @@
 use crate::diag::Diagnostic;
 use crate::support::Support;
 
-const PILLAR: &str = "pillar";
+pub(super) const PILLAR: &str = "pillar";
 
 /// "pillar" in a forest of pillars, "support" where anything else carries reliefs too.
 pub fn carrier(supports: &[Support]) -> &'static str {

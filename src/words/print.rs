@@ -1,5 +1,6 @@
 //! What was found out about printing, in words.
 
+use super::carrier::PILLAR;
 use crate::certify::printability::{PrintCheck, PrintFinding, STEEP_DEG};
 use crate::diag::Diagnostic;
 
@@ -28,7 +29,7 @@ pub fn note(found: &PrintCheck, carrier: &str) -> String {
             ratio,
             most,
         } => format!("{support} is {ratio:.1} times as high as wide; {most} times is the limit"),
-        PrintFinding::Bed { body } => bed(body.as_deref(), found.ok),
+        PrintFinding::Bed { body } => bed(body.as_deref(), found.ok, carrier),
         PrintFinding::Part { count } => format!("{count} parts would come off"),
         PrintFinding::Cavity { count } => format!("{count} hollows are closed"),
         PrintFinding::Core { support, area_mm2 } => {
@@ -37,10 +38,13 @@ pub fn note(found: &PrintCheck, carrier: &str) -> String {
     }
 }
 
-fn bed(body: Option<&str>, fits: bool) -> String {
+fn bed(body: Option<&str>, fits: bool, carrier: &str) -> String {
     let name = body.unwrap_or("the forest");
     let help = match (fits, body) {
         (true, _) => "",
+        (false, None) if carrier != PILLAR => {
+            "; only forests of pillars can be divided (`build --split`)"
+        }
         (false, None) => "; `build --split` makes plates that fit",
         (false, Some(_)) => "; it cannot be divided further",
     };

@@ -1,6 +1,8 @@
 //! The command: exit codes, messages, file access, what is written and what is not.
 
+use super::shapes::{ball, obj};
 use assert_cmd::Command;
+use glam::DVec3;
 use std::fs;
 use std::path::Path;
 
@@ -533,6 +535,11 @@ fn loading_is_part_of_the_timings() {
     }
     let (_, _, err) = run(folder.path(), &["check", "--timings", "--quality", "draft"]);
     assert!(!err.contains("simplifying"), "nothing to simplify\n{err}");
+    let ball = obj(&ball(DVec3::ZERO, 0.5, 40));
+    fs::write(folder.path().join("cube.obj"), ball).unwrap();
+    let args = ["check", "--timings", "--set", "detail=500"];
+    let (_, _, err) = run(folder.path(), &args);
+    assert!(err.contains("  simplifying models"), "{err}");
     let (_, _, err) = run(folder.path(), &["check", "-v"]);
     assert!(
         err.contains(" models\n") && err.contains(" view maps\n"),

@@ -13,6 +13,7 @@ mod diagram;
 mod dialects;
 mod dual;
 mod energies;
+mod field;
 mod figures;
 mod files;
 mod formats;

@@ -2,6 +2,7 @@
 
 use crate::shapes::{EYE, MIDDLE, Outcome, Setting, ball, pillar};
 use glam::{DMat4, DVec2, DVec3};
+use pillarforest::bvh::Bvh;
 use pillarforest::geom::{barycentric, orient, solid_angle};
 use pillarforest::groups::{anchor, groups};
 use pillarforest::index::{CellId, FaceId, GroupId, VertexId};
@@ -514,4 +515,57 @@ fn a_layer_that_leaves_no_core_is_told_with_pillar_and_view() {
         assert!(text.contains(part), "{text}");
     }
     assert!(errors[0].help[0].contains("make the pillar thicker"));
+}
+
+/// The tree finds what each face by itself gives: along axes with zeros of either sign, in flat boxes, a hair before a face, from afar.
+#[test]
+fn rays_find_what_faces_alone_give() {
+    let mut mesh = ball(DVec3::new(1.0, 2.0, 9.0), 5.0, 9);
+    let corner = |x: f64, y: f64| DVec3::new(500.0 * x, 500.0 * y, 0.0);
+    mesh.append(&TriMesh::new(
+        vec![
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ],
+        [[0, 1, 2], [0, 2, 3]],
+    ));
+    let tree = Bvh::new(&mesh);
+    let alone: Vec<Bvh> = FaceId::all(mesh.faces.len())
+        .map(|f| Bvh::new(&TriMesh::new(mesh.corners(f).to_vec(), [[0, 1, 2]])))
+        .collect();
+    let nearest = |from: DVec3, way: DVec3| {
+        let hits = alone.iter().filter_map(|one| one.first_hit(from, way));
+        hits.map(|h| h.t).min_by(f64::total_cmp)
+    };
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let mut ways: Vec<DVec3> = axes.iter().flat_map(|a| [*a, -*a]).collect();
+    ways.extend([
+        DVec3::new(-1e-60, 0.3, -0.9),
+        DVec3::new(0.4, -1e-9, -0.8),
+        DVec3::new(0.5, 0.2, 0.7),
+    ]);
+    let (mut met, mut rays) = (0, 0);
+    for k in 0..15 {
+        for j in 0..15 {
+            for z in [60.0, 9.0, 1e-5, -1e-5, 4e5] {
+                let from = DVec3::new(f64::from(k) - 6.3, f64::from(j) - 5.7, z);
+                for way in &ways {
+                    let wanted = nearest(from, *way);
+                    let got = tree.first_hit(from, *way).map(|h| h.t);
+                    assert_eq!(got, wanted, "from {from} towards {way}");
+                    let end = wanted.map_or(100.0, |t| t * 1.001 + 1e-9);
+                    assert_eq!(
+                        tree.blocked(from, *way, end),
+                        wanted.is_some(),
+                        "from {from} towards {way}"
+                    );
+                    met += usize::from(wanted.is_some());
+                    rays += 1;
+                }
+            }
+        }
+    }
+    assert!(met > rays / 5 && met < rays, "{met} of {rays}");
 }

@@ -1,0 +1,153 @@
+//! A program on its way through the rounds of rows: its blocks, each solved by the method that suits it.
+//!
+//! A block whose rows stay as they were keeps its solution, one with more rows keeps its factor.
+
+use super::blocks::{Blocks, ProgramBlock};
+use super::certificate::optimality;
+use super::dual::Dual;
+use super::program::Program;
+use super::solve::{Method, Solution, SolveError, Solved, SolvedBlock, by_interior_point};
+use rayon::prelude::*;
+
+/// Solves the program by the interior point.
+///
+/// # Errors
+/// If rows contradict each other or the solver gives up.
+pub fn solve(program: &Program) -> Result<Solution, SolveError> {
+    Solving::new(program, Method::InteriorPoint).solve(program)
+}
+
+/// See the module.
+pub(crate) struct Solving {
+    blocks: Blocks,
+    /// Of every block.
+    states: Vec<BlockState>,
+    method: Method,
+}
+
+/// How far a block has come.
+enum BlockState {
+    /// To be solved, by the dual working set as far as that goes.
+    New,
+    /// As it was solved with so many rows.
+    Solved(SolvedBlock, Option<Box<Dual>>, usize),
+}
+
+impl Solving {
+    pub(crate) fn new(program: &Program, method: Method) -> Self {
+        let blocks = Blocks::new(program);
+        Self {
+            states: blocks.all.iter().map(|_| BlockState::New).collect(),
+            blocks,
+            method,
+        }
+    }
+
+    /// The optimum of the program, to whose end rows may have been added since the last time.
+    ///
+    /// # Errors
+    /// As [`solve`].
+    pub(crate) fn solve(&mut self, program: &Program) -> Result<Solution, SolveError> {
+        if let Some(before) = self.blocks.add(program) {
+            self.take_over(&before);
+        }
+        let method = self.method;
+        let states = std::mem::take(&mut self.states);
+        let parts = states.into_par_iter().zip(&self.blocks.all);
+        let states = parts.map(|(state, block)| solved(state, &block.program, method));
+        self.states = all_solved(states.collect())?;
+        Ok(self.whole(program))
+    }
+
+    /// States of blocks that are as they were before.
+    fn take_over(&mut self, before: &[ProgramBlock]) {
+        let mut old: Vec<Option<BlockState>> = self.states.drain(..).map(Some).collect();
+        let state = |block: &ProgramBlock| {
+            let first = |b: &ProgramBlock| b.variables.first().copied();
+            let at = before.binary_search_by_key(&first(block), first).ok()?;
+            let same = before[at].variables == block.variables;
+            old[at].take_if(|_| same)
+        };
+        let states = self.blocks.all.iter().map(state);
+        self.states = states.map(|s| s.unwrap_or(BlockState::New)).collect();
+    }
+
+    fn whole(&self, program: &Program) -> Solution {
+        let mut whole = Solution {
+            u: vec![0.0; program.variables],
+            z: vec![0.0; program.rows.len()],
+            y: vec![0.0; program.equalities.len()],
+            solved: Solved {
+                variables: program.variables,
+                rows: program.rows.len(),
+                blocks: self.blocks.all.len(),
+                method: self.method,
+                ..Solved::default()
+            },
+        };
+        for (block, state) in self.blocks.all.iter().zip(&self.states) {
+            let BlockState::Solved(part, ..) = state else {
+                continue;
+            };
+            let place = |to: &mut [f64], at: &[usize], from: &[f64]| {
+                at.iter().zip(from).for_each(|(i, v)| to[*i] = *v);
+            };
+            place(&mut whole.u, &block.variables, &part.u);
+            place(&mut whole.z, &block.rows, &part.z);
+            place(&mut whole.y, &block.equalities, &part.y);
+            let told = &mut whole.solved;
+            told.iterations = told.iterations.max(part.iterations);
+            if part.method == Method::InteriorPoint {
+                told.method = Method::InteriorPoint;
+            }
+        }
+        whole.solved.optimality = optimality(program, &whole.u, &whole.z, &whole.y);
+        whole
+    }
+}
+
+/// Solves one block, unless it is solved already. The dual working set is left for good once it is at its limits.
+fn solved(state: BlockState, program: &Program, method: Method) -> Result<BlockState, SolveError> {
+    let rows = program.rows.len();
+    let mut dual = match state {
+        BlockState::Solved(part, dual, with) if with == rows => {
+            return Ok(BlockState::Solved(part, dual, with));
+        }
+        BlockState::Solved(_, dual, _) => dual,
+        BlockState::New => match method {
+            Method::DualWorkingSet => Dual::new(program).map(Box::new),
+            Method::InteriorPoint => None,
+        },
+    };
+    if let Some(Solution { u, z, y, solved }) = dual.as_mut().and_then(|d| d.solve(program)) {
+        let Solved {
+            method, iterations, ..
+        } = solved;
+        let part = SolvedBlock {
+            u,
+            z,
+            y,
+            method,
+            iterations,
+        };
+        return Ok(BlockState::Solved(part, dual, rows));
+    }
+    by_interior_point(program).map(|part| BlockState::Solved(part, None, rows))
+}
+
+/// All blocks, or what is wrong with them: the contradictions of all, or else the first failure, whatever the thread count.
+fn all_solved(results: Vec<Result<BlockState, SolveError>>) -> Result<Vec<BlockState>, SolveError> {
+    let (mut solved, mut contradicting, mut failed) = (Vec::new(), Vec::new(), None);
+    for result in results {
+        match result {
+            Ok(block) => solved.push(block),
+            Err(SolveError::Infeasible(rows)) => contradicting.push(rows),
+            Err(other) => failed = failed.or(Some(other)),
+        }
+    }
+    match (contradicting.is_empty(), failed) {
+        (false, _) => Err(SolveError::Infeasible(contradicting.concat())),
+        (true, Some(error)) => Err(error),
+        (true, None) => Ok(solved),
+    }
+}
