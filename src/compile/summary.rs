@@ -69,6 +69,7 @@ fn program(solved: &Solved) -> ProgramReport {
         method: match solved.method {
             Method::InteriorPoint => "interior point",
             Method::DualWorkingSet => "dual working set",
+            Method::AugmentedLagrangian => "augmented Lagrangian",
         }
         .to_owned(),
         active_rows: solved.optimality.active,

@@ -6,7 +6,7 @@
 //! to. Unknowns have a layer's width as their unit (normal energy) or the model's depth (curvature), the mean diagonal of `P` is
 //! about 1.
 
-use super::program::Program;
+use super::program::{Program, times};
 
 /// Residuals and gap of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Optimality {
 /// Measures a solution `u` with multipliers of rows and equalities.
 pub fn optimality(program: &Program, u: &[f64], z: &[f64], y: &[f64]) -> Optimality {
     let at = |terms: &[(usize, f64)]| terms.iter().map(|(j, v)| v * u[*j]).sum::<f64>();
-    let pu = times(program, u);
+    let pu = times(&program.quadratic, u);
     let mut gradient: Vec<f64> = pu.iter().zip(&program.linear).map(|(p, q)| p + q).collect();
     let (mut primal_residual, mut active, mut bound) = (0.0f64, 0, 0.0);
     for (row, z) in program.rows.iter().zip(z) {
@@ -48,16 +48,4 @@ pub fn optimality(program: &Program, u: &[f64], z: &[f64], y: &[f64]) -> Optimal
         dual_residual: gradient.iter().fold(0.0, |a, g| a.max(g.abs())),
         gap: (square + linear + bound).abs() / objective.abs().max(1.0),
     }
-}
-
-/// `P u`.
-fn times(program: &Program, u: &[f64]) -> Vec<f64> {
-    let mut product = vec![0.0; u.len()];
-    for (value, (i, j)) in &program.quadratic {
-        product[i] += value * u[j];
-        if i != j {
-            product[j] += value * u[i];
-        }
-    }
-    product
 }

@@ -8,6 +8,7 @@
 //! Symbols (paper): eye `o`; `lambda0` distance of a vertex from the eye in the model, `lambda` in the result;
 //! `s = lambda / lambda0` relative depth, `x = ln s`; `mu_g` scale of group `g`, `m_g = ln mu_g`; `w` vertex weights (Eq 13).
 
+mod augmented;
 mod blocks;
 mod certificate;
 mod compress;
@@ -45,4 +46,4 @@ pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
 pub use sheets::sheet_orders;
 pub use solve::{Method, Solution, SolveError, Solved};
-pub use solving::solve;
+pub use solving::{solve, solve_by};

@@ -121,3 +121,15 @@ pub(crate) fn gathered(mut terms: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     terms.retain(|t| t.1 != 0.0);
     terms
 }
+
+/// `P x` from the upper triangle of `P`.
+pub(crate) fn times(upper: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; x.len()];
+    for (v, (i, j)) in upper {
+        product[i] += v * x[j];
+        if i != j {
+            product[j] += v * x[i];
+        }
+    }
+    product
+}

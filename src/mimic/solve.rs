@@ -25,8 +25,10 @@ const MATTERS: f64 = 1e-3;
 pub enum Method {
     #[default]
     InteriorPoint,
-    /// One factorisation and a small dual (`dual`).
+    /// One factorisation and a small dual (`dual`), for few binding rows.
     DualWorkingSet,
+    /// Newton steps on an augmented Lagrangian (`augmented`), for many.
+    AugmentedLagrangian,
 }
 
 /// What was reached for a program.

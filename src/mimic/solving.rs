@@ -2,6 +2,7 @@
 //!
 //! A block whose rows stay as they were keeps its solution, one with more rows keeps its factor.
 
+use super::augmented::by_multipliers;
 use super::blocks::{Blocks, ProgramBlock};
 use super::certificate::optimality;
 use super::dual::Dual;
@@ -14,7 +15,15 @@ use rayon::prelude::*;
 /// # Errors
 /// If rows contradict each other or the solver gives up.
 pub fn solve(program: &Program) -> Result<Solution, SolveError> {
-    Solving::new(program, Method::InteriorPoint).solve(program)
+    solve_by(program, Method::InteriorPoint)
+}
+
+/// The same by `method` as far as that goes: `method` of what is solved says whether it did.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_by(program: &Program, method: Method) -> Result<Solution, SolveError> {
+    Solving::new(program, method).solve(program)
 }
 
 /// See the module.
@@ -97,7 +106,8 @@ impl Solving {
             place(&mut whole.y, &block.equalities, &part.y);
             let told = &mut whole.solved;
             told.iterations = told.iterations.max(part.iterations);
-            if part.method == Method::InteriorPoint {
+            // Lone unknowns that nothing binds are no matter of method.
+            if part.method == Method::InteriorPoint && !block.rows.is_empty() {
                 told.method = Method::InteriorPoint;
             }
         }
@@ -109,14 +119,14 @@ impl Solving {
 /// Solves one block, unless it is solved already. The dual working set is left for good once it is at its limits.
 fn solved(state: BlockState, program: &Program, method: Method) -> Result<BlockState, SolveError> {
     let rows = program.rows.len();
-    let mut dual = match state {
+    let (mut dual, near) = match state {
         BlockState::Solved(part, dual, with) if with == rows => {
             return Ok(BlockState::Solved(part, dual, with));
         }
-        BlockState::Solved(_, dual, _) => dual,
+        BlockState::Solved(part, dual, _) => (dual, Some(part)),
         BlockState::New => match method {
-            Method::DualWorkingSet => Dual::new(program).map(Box::new),
-            Method::InteriorPoint => None,
+            Method::DualWorkingSet => (Dual::new(program).map(Box::new), None),
+            Method::AugmentedLagrangian | Method::InteriorPoint => (None, None),
         },
     };
     if let Some(Solution { u, z, y, solved }) = dual.as_mut().and_then(|d| d.solve(program)) {
@@ -132,7 +142,12 @@ fn solved(state: BlockState, program: &Program, method: Method) -> Result<BlockS
         };
         return Ok(BlockState::Solved(part, dual, rows));
     }
-    by_interior_point(program).map(|part| BlockState::Solved(part, None, rows))
+    let found = match method {
+        Method::AugmentedLagrangian => by_multipliers(program, near.as_ref()),
+        Method::DualWorkingSet | Method::InteriorPoint => None,
+    };
+    let found = found.map_or_else(|| by_interior_point(program), Ok);
+    found.map(|part| BlockState::Solved(part, None, rows))
 }
 
 /// All blocks, or what is wrong with them: the contradictions of all, or else the first failure, whatever the thread count.

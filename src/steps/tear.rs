@@ -182,7 +182,7 @@ fn tear(
         .map(|(range, cells)| {
             let corners = |p: &Patch| target.mesh.faces[p.face];
             let depth = |p: &Patch| corners(p).map(|v| target.depth[v]);
-            let mut y = pressed(&patches.patches[range.clone()], &depth);
+            let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);
             functional.descend(&mut y);
             // Strips are as wide as they come out on the support, which may stand nearer than the model.

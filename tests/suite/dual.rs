@@ -1,10 +1,11 @@
-//! The dual working set against the interior point: the same optima, proved, or nothing.
+//! The dual working set and the augmented Lagrangian against the interior point: the same optima, proved, or nothing.
 
 use crate::shapes::{Setting, ball};
 use glam::DVec3;
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mimic::{
     CurvatureOptions, Dual, Energy, Method, Program, Row, RowKind, Solution, SolveError, solve,
+    solve_by,
 };
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -87,7 +88,7 @@ impl Balls {
     }
 }
 
-/// Both methods' optima are one, and the dual's is proved.
+/// All methods' optima are one, and proved.
 fn assert_same(program: &Program) -> Solution {
     let dual = Dual::new(program).expect("semidefinite").solve(program);
     let dual = dual.expect("within the limits");
@@ -104,6 +105,15 @@ fn assert_same(program: &Program) -> Solution {
     assert_eq!(dual.solved.method, Method::DualWorkingSet);
     assert_eq!(other.solved.method, Method::InteriorPoint);
     assert!(dual.z.iter().all(|z| *z >= 0.0));
+    let augmented = solve_by(program, Method::AugmentedLagrangian).expect("feasible");
+    let c = augmented.solved.optimality;
+    assert!(
+        (c.objective - b.objective).abs() <= 1e-6 * b.objective.abs().max(1e-2),
+        "{c:?} against {b:?}"
+    );
+    assert!(c.primal_residual < 2e-7 && c.dual_residual < 1e-7, "{c:?}");
+    assert_eq!(augmented.solved.method, Method::AugmentedLagrangian);
+    assert!(augmented.z.iter().all(|z| *z >= 0.0));
     dual
 }
 
@@ -222,11 +232,17 @@ fn a_contradiction_is_left_to_the_interior_point() {
     torn.bound(0, 2, 1.0, 1.5);
     let mut dual = Dual::new(&torn.program).expect("semidefinite");
     assert!(dual.solve(&torn.program).is_none());
-    let error = solve(&torn.program).unwrap_err();
-    assert!(
-        matches!(&error, SolveError::Infeasible(rows) if !rows.is_empty()),
-        "{error:?}"
-    );
+    for method in [
+        Method::InteriorPoint,
+        Method::DualWorkingSet,
+        Method::AugmentedLagrangian,
+    ] {
+        let error = solve_by(&torn.program, method).unwrap_err();
+        assert!(
+            matches!(&error, SolveError::Infeasible(rows) if !rows.is_empty()),
+            "{method:?}: {error:?}"
+        );
+    }
 }
 
 #[test]

@@ -47,14 +47,37 @@ impl Factor {
         };
         let order = SymmetricOrdering::Amd;
         let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, order, params).ok()?;
-        let mut values = vec![0.0; symbolic.len_val()];
+        let (_, place) = symbolic.perm()?.arrays();
+        let place = place.to_vec();
+        let tree = supernodes(&symbolic)?;
+        let mut supernode = vec![0; n];
+        for s in 0..tree.n_supernodes() {
+            supernode[tree.supernode_begin()[s]..tree.supernode_end()[s]].fill(s);
+        }
+        let mut made = Self {
+            values: vec![0.0; symbolic.len_val()],
+            symbolic,
+            supernode,
+            place,
+        };
+        made.factorise_again(upper)?;
+        Some(made)
+    }
+
+    /// Factorises a matrix of the same pattern; nothing, and no factor either, if it is not positive definite or memory runs out.
+    pub(crate) fn factorise_again(&mut self, upper: &CsMat<f64>) -> Option<()> {
+        let n = upper.cols();
+        let starts = upper.indptr();
+        let pattern =
+            SymbolicSparseColMatRef::new_checked(n, n, starts.as_slice()?, None, upper.indices());
         let spec: Spec<LltParams, f64> = Spec::default();
-        let mut memory =
-            MemBuffer::try_new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, spec))
-                .ok()?;
-        symbolic
+        let request = self
+            .symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, spec);
+        let mut memory = MemBuffer::try_new(request).ok()?;
+        self.symbolic
             .factorize_numeric_llt(
-                &mut values,
+                &mut self.values,
                 SparseColMatRef::new(pattern, upper.data()),
                 Side::Upper,
                 LltRegularization::default(),
@@ -63,19 +86,7 @@ impl Factor {
                 spec,
             )
             .ok()?;
-        let (_, place) = symbolic.perm()?.arrays();
-        let place = place.to_vec();
-        let tree = supernodes(&symbolic)?;
-        let mut supernode = vec![0; n];
-        for s in 0..tree.n_supernodes() {
-            supernode[tree.supernode_begin()[s]..tree.supernode_end()[s]].fill(s);
-        }
-        Some(Self {
-            symbolic,
-            values,
-            supernode,
-            place,
-        })
+        Some(())
     }
 
     /// `P^-1` times a vector, in place.

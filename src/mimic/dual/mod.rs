@@ -26,6 +26,7 @@ use super::certificate::optimality;
 use super::program::Program;
 use super::solve::{Method, Solution, Solved};
 use contacts::Contacts;
+pub(crate) use factor::Factor;
 use factor::Half;
 use pinned::Pinned;
 use rayon::prelude::*;
@@ -34,7 +35,7 @@ use rayon::prelude::*;
 /// uncertain by 2e-8 at 50,000 vertices; at 1e-9 a skull went on for twelve rounds without getting better.
 const HELD: f64 = 1e-7;
 /// What the certificate must be below.
-const PROVED: f64 = 1e-6;
+pub(super) const PROVED: f64 = 1e-6;
 /// Most rows taken in hand at once: more make rounds fewer, but most of them idle.
 const AT_ONCE: usize = 300;
 /// So few broken rows are all taken in hand, not only the worst of their surroundings: that saves the last rounds, which find one

@@ -1,6 +1,6 @@
 //! A singular quadratic form made invertible: one unknown of every part that gives way is pinned (see [`super`]).
 
-use super::super::program::{gathered, mean_diagonal};
+use super::super::program::{gathered, mean_diagonal, times};
 use super::factor::{Factor, Half};
 use crate::mesh::DisjointSets;
 use sprs::CsMat;
@@ -158,18 +158,6 @@ impl Pinned {
         }
         product
     }
-}
-
-/// `P x` from the upper triangle.
-fn times(upper: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
-    let mut product = vec![0.0; x.len()];
-    for (v, (i, j)) in upper {
-        product[i] += v * x[j];
-        if i != j {
-            product[j] += v * x[i];
-        }
-    }
-    product
 }
 
 /// The pin of every unknown, and the pinned ones: the first of every part of several, and lone ones below `soft`.
