@@ -105,7 +105,7 @@
 //! - Printable formats take [`mesh::Solid`]. Its constructors check closed, oriented, 2-manifold, free of self-intersection and positive
 //!   volume after rounding to f32; only of what [`mesh::resolved`] just left without intersections they do not look for any again.
 //! - One library, one module: `alum` in [`mesh::simplify`], `obvhs` in [`bvh`], `spade` in `viewmap::arrange`, `clarabel` in
-//!   `mimic::solve`, `faer` in `mimic::dual::factor`, `manifold-rust` in `carve::boolean`, `i_overlay` in [`geom::rings`], `exmex` in
+//!   `mimic::solve`, `faer` in `mimic::factor`, `manifold-rust` in `carve::boolean`, `i_overlay` in [`geom::rings`], `exmex` in
 //!   `scene::supports::bodies::heights`, `png` in `scene::supports::bodies::image`, `rand` in [`planner`].
 //! - Geometry does not speak to users: stages return typed findings, and [`words`] turns them into messages. Files and scene texts are
 //!   read by those who know their lines and columns, and word what is wrong there.

@@ -13,7 +13,7 @@
 //! each other are the interior point's (`solve`), which says which do.
 
 use super::certificate::optimality;
-use super::dual::{Factor, PROVED};
+use super::factor::Factor;
 use super::program::{Program, Row, times};
 use super::solve::{Method, SolvedBlock};
 use sprs::{CsMat, TriMat};
@@ -43,6 +43,9 @@ const LOOSE: f64 = 1e-2;
 const TIGHTER: f64 = 0.1;
 /// A round at the hardest penalty that leaves more than this share of what rows were broken by leads nowhere: rows contradict each other.
 const STUCK: f64 = 0.5;
+/// Terms below this share of the largest multiplier have vanished. To take a hard program for a contradiction costs time alone: the
+/// interior point decides.
+const VANISHED: f64 = 1e-3;
 
 /// The optimum of a program; nothing if it is not proved within the limits. `near` is that of the program before rows were added to
 /// its end.
@@ -57,7 +60,7 @@ pub(crate) fn by_multipliers(program: &Program, near: Option<&SolvedBlock>) -> O
         let contradiction = climb.take_multipliers();
         let broken = climb.broken();
         if broken <= HELD && climb.slope() <= FLAT {
-            return climb.proved(program);
+            return climb.proved();
         }
         let stuck = climb.rho >= HARDEST && broken > STUCK * before;
         if contradiction || stuck {
@@ -72,10 +75,7 @@ pub(crate) fn by_multipliers(program: &Program, near: Option<&SolvedBlock>) -> O
     None
 }
 
-/// Terms below this share of the largest multiplier have vanished. To take a hard program for a contradiction costs time alone: the
-/// interior point decides.
-const VANISHED: f64 = 1e-3;
-
+/// A program on its way to better multipliers.
 struct Climb<'a> {
     program: &'a Program,
     /// Terms and limits: equalities first, then rows.
@@ -121,8 +121,8 @@ impl<'a> Climb<'a> {
         let u = vec![0.0; n];
         Some(Self {
             products: products.collect::<Option<_>>()?,
-            factor: Factor::new(&fixed)?,
-            factored: (vec![false; lines.len()], 0.0),
+            factor: Factor::of_pattern(&fixed)?,
+            factored: (Vec::new(), 0.0),
             fixed,
             rho: SOFTEST,
             anchor: u.clone(),
@@ -151,15 +151,16 @@ impl<'a> Climb<'a> {
         if i < self.equalities { r } else { r.max(0.0) }
     }
 
-    fn gradient(&self) -> Vec<f64> {
+    /// The gradient of `phi` but with these multipliers, `rho r` being its own.
+    fn gradient(&self, multiplier: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut gradient = self.pull.clone();
         for (g, (u, u0)) in gradient.iter_mut().zip(self.u.iter().zip(&self.anchor)) {
             *g += PROXIMAL * (u - u0);
         }
         for (i, (terms, _)) in self.lines.iter().enumerate() {
-            let force = self.rho * self.pressing(i);
-            if force != 0.0 {
-                terms.iter().for_each(|(j, v)| gradient[*j] += force * v);
+            let y = multiplier(i);
+            if y != 0.0 {
+                terms.iter().for_each(|(j, v)| gradient[*j] += y * v);
             }
         }
         gradient
@@ -168,8 +169,8 @@ impl<'a> Climb<'a> {
     /// Newton steps until no entry of the gradient is above `loose`; nothing if there were too many.
     fn descend(&mut self, loose: f64) -> Option<()> {
         loop {
-            let gradient = self.gradient();
-            let slope = gradient.iter().fold(0.0f64, |most, g| most.max(g.abs()));
+            let gradient = self.gradient(|i| self.rho * self.pressing(i));
+            let slope = largest(&gradient);
             if slope <= loose {
                 return Some(());
             }
@@ -180,10 +181,9 @@ impl<'a> Climb<'a> {
             let same = self.factorise()?;
             let mut way: Vec<f64> = gradient.iter().map(|g| -g).collect();
             self.factor.solve(&mut way);
-            let before = slope;
             self.walk(&way);
             // With the same rows the step was exact, and what is left is rounding.
-            if same && before <= 100.0 * FLAT {
+            if same && slope <= 100.0 * FLAT {
                 return Some(());
             }
         }
@@ -262,7 +262,7 @@ impl<'a> Climb<'a> {
             wanted += limit * grown;
             most = most.max(grown.abs());
         }
-        let left = sum.iter().fold(0.0f64, |most, s| most.max(s.abs()));
+        let left = largest(&sum);
         self.y = better;
         self.measure();
         left < VANISHED * most && wanted < -VANISHED * most
@@ -296,21 +296,14 @@ impl<'a> Climb<'a> {
         (0..self.lines.len()).map(by).fold(0.0, f64::max)
     }
 
-    /// The largest entry of `P u + q + A'y`.
+    /// The largest entry of `P u + q + A'y`, after multipliers were taken: `u_0` is `u` then.
     fn slope(&self) -> f64 {
-        let mut gradient = self.pull.clone();
-        for ((terms, _), y) in self.lines.iter().zip(&self.y) {
-            terms.iter().for_each(|(j, v)| gradient[*j] += v * y);
-        }
-        gradient.iter().fold(0.0, |most, g| most.max(g.abs()))
+        largest(&self.gradient(|i| self.y[i]))
     }
 
-    fn proved(self, program: &Program) -> Option<SolvedBlock> {
+    fn proved(self) -> Option<SolvedBlock> {
         let (y, z) = self.y.split_at(self.equalities);
-        let found = optimality(program, &self.u, z, y);
-        let residuals = [found.primal_residual, found.dual_residual, found.gap];
-        // Not a number is not proved.
-        let proved = residuals.iter().all(|p| *p <= PROVED);
+        let proved = optimality(self.program, &self.u, z, y).is_proof();
         proved.then(|| SolvedBlock {
             z: z.to_vec(),
             y: y.to_vec(),
@@ -319,6 +312,10 @@ impl<'a> Climb<'a> {
             iterations: self.steps,
         })
     }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
 /// The upper triangle of the products of a line's terms with each other.

@@ -8,6 +8,9 @@
 
 use super::program::{Program, times};
 
+/// What residuals and gap of an optimum must be below.
+const PROVED: f64 = 1e-6;
+
 /// Residuals and gap of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Optimality {
@@ -18,6 +21,15 @@ pub struct Optimality {
     pub dual_residual: f64,
     /// Relative to the objective where that is above 1.
     pub gap: f64,
+}
+
+impl Optimality {
+    /// Whether residuals and gap are small enough for a solution to count as the optimum; not a number is not.
+    pub(crate) fn is_proof(&self) -> bool {
+        [self.primal_residual, self.dual_residual, self.gap]
+            .iter()
+            .all(|part| *part <= PROVED)
+    }
 }
 
 /// Measures a solution `u` with multipliers of rows and equalities.

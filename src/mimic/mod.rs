@@ -18,6 +18,7 @@ mod curvature;
 mod depths;
 mod dual;
 mod energy;
+mod factor;
 mod gradient;
 mod iterated;
 mod keeping;

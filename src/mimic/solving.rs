@@ -36,7 +36,7 @@ pub(crate) struct Solving {
 
 /// How far a block has come.
 enum BlockState {
-    /// To be solved, by the dual working set as far as that goes.
+    /// Not solved yet.
     New,
     /// As it was solved with so many rows.
     Solved(SolvedBlock, Option<Box<Dual>>, usize),

@@ -13,7 +13,7 @@ const OWNERS: [(&str, &[&str]); 17] = [
     ("obvhs", &["bvh.rs"]),
     ("spade", &["viewmap/arrange.rs"]),
     ("clarabel", &["mimic/solve.rs"]),
-    ("faer", &["mimic/dual/factor.rs"]),
+    ("faer", &["mimic/factor.rs"]),
     ("manifold_rust", &["carve/boolean.rs"]),
     ("i_overlay", &["geom/rings.rs"]),
     ("tobj", &["formats/read_obj.rs"]),

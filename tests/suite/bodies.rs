@@ -1,6 +1,6 @@
 //! Supports that are no pillars: what their layers promise, found by rays at the finished solid and the bare one.
 
-use super::shapes::{Outcome, Setting, ball, obj};
+use super::shapes::{Outcome, Setting, ball, balls, obj};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
 use pillarforest::compile::{self, Build};
@@ -157,11 +157,7 @@ fn parts_on_two_ridges_have_no_order() {
 /// The file of two balls.
 fn read_balls(second: DVec3) -> impl Fn(&str) -> Result<Vec<u8>, Diagnostic> {
     move |name| match name {
-        "balls.obj" => {
-            let mut both = ball(DVec3::ZERO, 20.0, 16);
-            both.append(&ball(second, 16.0, 14));
-            Ok(obj(&both))
-        }
+        "balls.obj" => Ok(obj(&balls(second))),
         _ => Err(Diagnostic::error(format!("no file {name}"))),
     }
 }

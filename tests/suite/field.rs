@@ -1,6 +1,7 @@
 //! Situations from the field, built whole: what people tried first and what they should get.
 
-use super::shapes::{ball, obj};
+use super::meshes::cuboid;
+use super::shapes::{ball, balls, obj};
 use glam::DVec3;
 use pillarforest::compile::{self, Build};
 use pillarforest::diag::Diagnostic;
@@ -10,41 +11,12 @@ use serde_json::Value;
 
 const OUTPUT: &str = "output: (forest_glb: false, lights: false, camouflage: false, report_html: false, picture_size: 64)";
 
-/// A box between two corners.
-fn block(lo: DVec3, hi: DVec3) -> TriMesh {
-    let corner = |k: usize| {
-        let pick = |bit: usize, a: f64, b: f64| if k >> bit & 1 == 1 { b } else { a };
-        DVec3::new(
-            pick(0, lo.x, hi.x),
-            pick(1, lo.y, hi.y),
-            pick(2, lo.z, hi.z),
-        )
-    };
-    let faces = [
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
-    TriMesh::new((0..8).map(corner).collect(), faces)
-}
-
 /// Upright and level bars as letters have them: an H and an E.
 fn letters(which: &str) -> TriMesh {
     let mut all = TriMesh::default();
     let mut bar = |x: [f64; 2], z: [f64; 2]| {
-        all.append(&block(
-            DVec3::new(x[0], -3.0, z[0]),
-            DVec3::new(x[1], 3.0, z[1]),
-        ));
+        let size = [x[1] - x[0], 6.0, z[1] - z[0]];
+        all.append(&cuboid([x[0], -3.0, z[0]], size));
     };
     bar([0.0, 4.0], [0.0, 24.0]);
     match which {
@@ -68,11 +40,7 @@ fn read(name: &str) -> Result<Vec<u8>, Diagnostic> {
             both.append(&ball(DVec3::new(0.0, -19.0, 0.0), 6.0, 12));
             both
         }
-        "overlapping.obj" => {
-            let mut both = ball(DVec3::ZERO, 20.0, 16);
-            both.append(&ball(DVec3::new(22.0, -8.0, 6.0), 16.0, 14));
-            both
-        }
+        "overlapping.obj" => balls(DVec3::new(22.0, -8.0, 6.0)),
         "h.obj" => letters("H"),
         "e.obj" => letters("E"),
         _ => return Err(Diagnostic::error(format!("no file {name}"))),

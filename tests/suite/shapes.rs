@@ -40,6 +40,13 @@ pub(crate) const CUBE_FACES: [[u32; 3]; 12] = [
     [1, 7, 5],
 ];
 
+/// A ball of 20 mm around the origin and one of 16 around `second`, as parts of one model.
+pub(crate) fn balls(second: DVec3) -> TriMesh {
+    let mut both = ball(DVec3::ZERO, 20.0, 16);
+    both.append(&ball(second, 16.0, 14));
+    both
+}
+
 /// Corners of a regular polygon, counter-clockwise.
 pub(crate) fn ring(centre: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
     (0..corners)

@@ -19,23 +19,19 @@
 //! residuals are measured on `u`, which is refined through differences, and fed back.
 
 mod contacts;
-mod factor;
 mod pinned;
 
 use super::certificate::optimality;
+use super::factor::Half;
 use super::program::Program;
 use super::solve::{Method, Solution, Solved};
 use contacts::Contacts;
-pub(crate) use factor::Factor;
-use factor::Half;
 use pinned::Pinned;
 use rayon::prelude::*;
 
 /// Rows are held to this, in units of the unknowns: a tenth of what they are tightened by (`lazily::MARGIN`). Solutions are
 /// uncertain by 2e-8 at 50,000 vertices; at 1e-9 a skull went on for twelve rounds without getting better.
 const HELD: f64 = 1e-7;
-/// What the certificate must be below.
-pub(super) const PROVED: f64 = 1e-6;
 /// Most rows taken in hand at once: more make rounds fewer, but most of them idle.
 const AT_ONCE: usize = 300;
 /// So few broken rows are all taken in hand, not only the worst of their surroundings: that saves the last rounds, which find one
@@ -210,11 +206,6 @@ impl Dual {
 
     fn proved(&self, program: &Program, u: Vec<f64>, z: Vec<f64>, y: Vec<f64>) -> Option<Solution> {
         let optimality = optimality(program, &u, &z, &y);
-        let parts = [
-            optimality.primal_residual,
-            optimality.dual_residual,
-            optimality.gap,
-        ];
         let solved = Solved {
             variables: program.variables,
             rows: program.rows.len(),
@@ -224,9 +215,9 @@ impl Dual {
             optimality,
             ..Solved::default()
         };
-        // Not a number is not proved.
-        let proved = parts.iter().all(|p| *p <= PROVED);
-        proved.then_some(Solution { u, z, y, solved })
+        optimality
+            .is_proof()
+            .then_some(Solution { u, z, y, solved })
     }
 }
 

@@ -1,7 +1,7 @@
 //! A singular quadratic form made invertible: one unknown of every part that gives way is pinned (see [`super`]).
 
+use super::super::factor::{Factor, Half};
 use super::super::program::{gathered, mean_diagonal, times};
-use super::factor::{Factor, Half};
 use crate::mesh::DisjointSets;
 use sprs::CsMat;
 

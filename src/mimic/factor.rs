@@ -36,6 +36,13 @@ impl Factor {
     /// Factorises a matrix given by its upper triangle, compressed columns; nothing if it is not positive definite or memory
     /// runs out.
     pub(crate) fn new(upper: &CsMat<f64>) -> Option<Self> {
+        let mut made = Self::of_pattern(upper)?;
+        made.factorise_again(upper)?;
+        Some(made)
+    }
+
+    /// The factor of no matrix yet, but of this pattern; nothing if memory runs out.
+    pub(crate) fn of_pattern(upper: &CsMat<f64>) -> Option<Self> {
         let n = upper.cols();
         let starts = upper.indptr();
         let pattern =
@@ -54,14 +61,12 @@ impl Factor {
         for s in 0..tree.n_supernodes() {
             supernode[tree.supernode_begin()[s]..tree.supernode_end()[s]].fill(s);
         }
-        let mut made = Self {
+        Some(Self {
             values: vec![0.0; symbolic.len_val()],
             symbolic,
             supernode,
             place,
-        };
-        made.factorise_again(upper)?;
-        Some(made)
+        })
     }
 
     /// Factorises a matrix of the same pattern; nothing, and no factor either, if it is not positive definite or memory runs out.
