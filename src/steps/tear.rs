@@ -185,11 +185,7 @@ fn tear(
             let mut y = pressed(&patches.patches[range.clone()], depth);
             let functional = Functional::new(patches, prices, range);
             functional.descend(&mut y);
-            // Strips are as wide as they come out on the support, which may stand nearer than the model.
-            let own = patches.patches[functional.range()].iter().zip(&y);
-            let relief = own.flat_map(|(p, y)| [0, 1, 2].map(|k| depth(p)[k] * y[k].exp()));
-            let nearest = relief.fold(f64::INFINITY, f64::min);
-            let narrowest = steps.narrowest_mm / image.map.plane.scale(nearest);
+            let narrowest = steps.narrowest_mm / image.map.plane.scale(patches.depth);
             let absorbed = thin::absorb_thin(image, &functional, &cells, &mut y, narrowest);
             (y, absorbed)
         })
