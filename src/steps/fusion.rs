@@ -21,6 +21,9 @@ const OVERSTEP: f64 = 1e5;
 /// What a millimetre of contour in the wrong depth order costs, in the same units.
 const DISORDER: f64 = 1e5;
 
+/// What a millimetre of tear costs whose front piece is a knife, in the same units.
+const KNIFE: f64 = 1e5;
+
 /// Prices of the functional; see the module `steps`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prices {
@@ -234,8 +237,11 @@ impl<'a> Functional<'a> {
                 let wrong = self.prices.ordered && (step - gap) * gap.signum() > self.same();
                 return if wrong { DISORDER } else { 0.0 };
             }
+            let knife = (step < -self.same() && s.knife[0]) || (step > self.same() && s.knife[1]);
             let step = step.abs();
-            if step <= self.same() {
+            if knife {
+                KNIFE
+            } else if step <= self.same() {
                 0.0
             } else if step > highest + self.same() {
                 f64::INFINITY

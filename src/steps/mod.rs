@@ -22,9 +22,13 @@
 //! s.t. lower <= y <= upper        at every corner of every cell (the layer),
 //!      y_front - y_back <= gap    along contours, where the model itself is `gap` deep in log depth,
 //!      |[y]_e| <= highest         (height of steps, tolerance of the eye)
+//!      [y]_e >= 0 or <= 0        where the side in front would be a knife
 //! ```
 //!
-//! with the price `p` of a millimetre of tear, a rebate `1 - c_e` of up to a half along creases and `W` the layer's width: the
+//! A piece that falls off steeply from a tear and stands before the other side would be a knife: at its edge, and for
+//! millimetres behind it, thinner than what prints. Along such seams one direction of the jump is not allowed.
+//!
+//! Here with the price `p` of a millimetre of tear, a rebate `1 - c_e` of up to a half along creases and `W` the layer's width: the
 //! functional of Mumford & Shah (1989) with hard bounds. Outlines of supports and contours of the model cost nothing: the
 //! relief steps there anyway, so that supports do not depend on each other.
 //!
@@ -52,6 +56,8 @@ mod options;
 mod patches;
 mod tear;
 mod thin;
+
+pub(crate) use options::LIP_MM;
 
 pub use lines::{StepLine, StepSummary};
 pub use options::{Prefer, StepLimits, StepOptions, UNSEEN_RAD};

@@ -33,3 +33,14 @@ pub struct StepOptions {
     pub narrowest_mm: f64,
     pub prefer: Prefer,
 }
+
+/// How far a piece may be too thin to print behind its edge, millimetres: printing blunts so much, and nobody misses it.
+pub(crate) const LIP_MM: f64 = 2.0;
+
+impl StepOptions {
+    /// A piece that stands before its neighbour must not fall off from the step by more millimetres per millimetre of the image
+    /// than this. Steeper, it is a knife: for more than [`LIP_MM`] behind its edge it is narrower than what prints.
+    pub(crate) fn steepest(&self) -> f64 {
+        LIP_MM / self.narrowest_mm
+    }
+}

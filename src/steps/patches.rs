@@ -1,6 +1,6 @@
 //! The pieces a surface may fall into: patches (parts of faces seen on one group) and the seams between them.
 
-use super::options::{StepLimits, UNSEEN_RAD};
+use super::options::{StepLimits, StepOptions, UNSEEN_RAD};
 use crate::geom::ImagePlane;
 use crate::groups::{Anchor, Groups, anchor};
 use crate::index::{CellId, FaceId, GroupId, SupportId, indices};
@@ -60,6 +60,8 @@ pub(crate) struct Seam {
     pub line: [DVec2; 2],
     /// Angle between the normals, radians.
     pub crease: f64,
+    /// Whether the first and the second patch are knives where they stand before the other (see [`StepOptions::steepest`]).
+    pub knife: [bool; 2],
     /// Largest step allowed, log depth.
     pub highest: f64,
 }
@@ -116,7 +118,8 @@ pub(crate) struct Patches {
 }
 
 impl Patches {
-    pub(crate) fn new(limits: &StepLimits, sight: &Sight) -> Self {
+    pub(crate) fn new(steps: &StepOptions, sight: &Sight) -> Self {
+        let limits = &steps.limits;
         let Image { target, map, .. } = &sight.image;
         let (keys, of_cell) = numbered(map, &sight.groups);
         let depth = mean_depth(target, map);
@@ -141,7 +144,14 @@ impl Patches {
             .flat_map(|p| p.points.iter().map(|b| b.upper - b.lower))
             .collect();
         widths.sort_by(f64::total_cmp);
-        let (seams, rims) = seams(target, map, &patches, &of_cell, scale);
+        let stitching = Stitching {
+            target,
+            map,
+            patches: &patches,
+            scale,
+            steepest: steps.steepest(),
+        };
+        let (seams, rims) = stitching.seams(&of_cell);
         Self {
             seams,
             rims,
@@ -297,70 +307,92 @@ fn tilt(
     geometry.cotangents[face].map(|cot| seen * h * h * cot / (2.0 * geometry.areas[face]))
 }
 
-/// All seams, rising by patches (one for every side of cells between two patches of one support), and all rims.
-fn seams(
-    target: &Target,
-    map: &ViewMap,
-    patches: &[Patch],
-    of_cell: &[Option<PatchId>],
+/// What seams are made from.
+struct Stitching<'a> {
+    target: &'a Target,
+    map: &'a ViewMap,
+    patches: &'a [Patch],
+    /// Millimetres at the model's mean depth in a unit of the image.
     scale: f64,
-) -> (Vec<Seam>, Vec<Rim>) {
-    let (mut seams, mut rims) = (Vec::new(), Vec::new());
-    for c in CellId::all(map.cells.len()) {
-        for k in 0..3 {
-            let Some(n) = map.neighbours[c][k].filter(|n| *n > c) else {
-                continue;
-            };
-            let (Some(i), Some(j)) = (of_cell[c], of_cell[n]) else {
-                continue;
-            };
-            let corners = map.triangle(c);
-            let line = [corners[k], corners[(k + 1) % 3]];
-            if patches[i].support != patches[j].support {
-                let i_is_near = map.cells[c].support_depth < map.cells[n].support_depth;
-                let length_mm = line[0].distance(line[1]) * scale;
-                rims.extend([(i, i_is_near), (j, !i_is_near)].map(|(patch, near)| Rim {
-                    patch,
-                    near,
-                    length_mm,
-                }));
-            } else if i != j {
-                let pair = [i.min(j), i.max(j)];
-                seams.push(seam(target, patches, pair, line, scale));
-            }
-        }
-    }
-    seams.sort_by_key(|s| s.patches);
-    (seams, rims)
+    /// See [`StepOptions::steepest`].
+    steepest: f64,
 }
 
-fn seam(
-    target: &Target,
-    patches: &[Patch],
-    pair: [PatchId; 2],
-    line: [DVec2; 2],
-    scale: f64,
-) -> Seam {
-    let faces = pair.map(|p| patches[p].face);
-    let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
-    let gap = |[a, b]: [(Anchor, f64); 2]| {
-        if (a.1 - b.1).abs() > TOGETHER_MM {
-            (b.1 / a.1).ln()
-        } else {
-            0.0
+impl Stitching<'_> {
+    /// All seams, rising by patches (one for every side of cells between two patches of one support), and all rims.
+    fn seams(&self, of_cell: &[Option<PatchId>]) -> (Vec<Seam>, Vec<Rim>) {
+        let Self { map, patches, .. } = self;
+        let (mut seams, mut rims) = (Vec::new(), Vec::new());
+        for c in CellId::all(map.cells.len()) {
+            for k in 0..3 {
+                let Some(n) = map.neighbours[c][k].filter(|n| *n > c) else {
+                    continue;
+                };
+                let (Some(i), Some(j)) = (of_cell[c], of_cell[n]) else {
+                    continue;
+                };
+                let corners = map.triangle(c);
+                let line = [corners[k], corners[(k + 1) % 3]];
+                if patches[i].support != patches[j].support {
+                    let i_is_near = map.cells[c].support_depth < map.cells[n].support_depth;
+                    let length_mm = line[0].distance(line[1]) * self.scale;
+                    rims.extend([(i, i_is_near), (j, !i_is_near)].map(|(patch, near)| Rim {
+                        patch,
+                        near,
+                        length_mm,
+                    }));
+                } else if i != j {
+                    let mut sides = [(i, c), (j, n)];
+                    sides.sort_unstable();
+                    seams.push(self.seam(sides, line));
+                }
+            }
         }
-    };
-    let [a, b] = faces.map(|f| target.mesh.normal(f));
-    Seam {
-        patches: pair,
-        ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),
-        gaps: at.map(gap),
-        length_mm: line[0].distance(line[1]) * scale,
-        line,
-        crease: a.cross(b).length().atan2(a.dot(b)),
-        highest: pair
-            .map(|p| patches[p].highest)
-            .into_iter()
-            .fold(f64::INFINITY, f64::min),
+        seams.sort_by_key(|s| s.patches);
+        (seams, rims)
+    }
+
+    /// The seam between two patches, each with its cell at the line.
+    fn seam(&self, sides: [(PatchId, CellId); 2], line: [DVec2; 2]) -> Seam {
+        let target = self.target;
+        let pair = sides.map(|(p, _)| p);
+        let faces = pair.map(|p| self.patches[p].face);
+        let at = line.map(|q| faces.map(|f| anchor(target, f, q)));
+        let gap = |[a, b]: [(Anchor, f64); 2]| {
+            if (a.1 - b.1).abs() > TOGETHER_MM {
+                (b.1 / a.1).ln()
+            } else {
+                0.0
+            }
+        };
+        let [a, b] = faces.map(|f| target.mesh.normal(f));
+        Seam {
+            patches: pair,
+            ends: at.map(|e| e.map(|(anchor, _)| anchor.weights)),
+            gaps: at.map(gap),
+            length_mm: line[0].distance(line[1]) * self.scale,
+            line,
+            crease: a.cross(b).length().atan2(a.dot(b)),
+            knife: sides.map(|(p, c)| self.recession(p, c, line) > self.steepest),
+            highest: pair
+                .map(|p| self.patches[p].highest)
+                .into_iter()
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// By how many millimetres a patch grows deeper in the model for each millimetre away from the line where its `cell` begins.
+    fn recession(&self, patch: PatchId, cell: CellId, line: [DVec2; 2]) -> f64 {
+        let (target, face) = (self.target, self.patches[patch].face);
+        let [a, b, c] = target.image_of(face);
+        let nearness = target.mesh.faces[face].map(|v| 1.0 / target.depth[v]);
+        // The reciprocal of the depth is linear in the image.
+        let (ab, ac) = (b - a, c - a);
+        let (by_ab, by_ac) = (nearness[1] - nearness[0], nearness[2] - nearness[0]);
+        let slope = (by_ab * ac.perp() - by_ac * ab.perp()) / -ab.perp_dot(ac);
+        let inside = self.map.triangle(cell).into_iter().sum::<DVec2>() / 3.0 - line[0];
+        let away = inside.reject_from(line[1] - line[0]).normalize_or_zero();
+        let (_, depth) = anchor(target, face, (line[0] + line[1]) / 2.0);
+        -slope.dot(away) * depth * depth / self.map.plane.scale(depth)
     }
 }

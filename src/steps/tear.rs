@@ -43,7 +43,7 @@ pub fn torn<'a>(
     sight: &Sight<'a>,
 ) -> Result<Torn<'a>, SolveError> {
     let image = &sight.image;
-    let patches = Patches::new(&steps.limits, sight);
+    let patches = Patches::new(steps, sight);
     let mut price = steps.price;
     let (mut rounds, mut given_up) = (0, 0);
     loop {

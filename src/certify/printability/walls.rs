@@ -13,6 +13,7 @@ use crate::bvh::Bvh;
 use crate::certify::point::without_minus_zero;
 use crate::index::FaceId;
 use crate::mesh::{DisjointSets, TriMesh};
+use crate::steps::LIP_MM;
 use crate::support::{Support, SupportKind};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -24,8 +25,6 @@ const OPPOSITE_DEG: f64 = 30.0;
 /// A sample stands for this much surface, square millimetres, unless there would be more than [`MOST_SAMPLES`].
 const SAMPLE_MM2: f64 = 0.25;
 const MOST_SAMPLES: f64 = 200_000.0;
-/// How far from thick material a lip may reach, millimetres: what is blunted there is not missed.
-const LIP_MM: f64 = 2.0;
 /// Smaller walls are not missed, square millimetres of one side. Where a relief ends at a pillar's outline, films of some hundredths
 /// of a millimetre are left between two cuts along an eye's rays: up to 16 mm2 on the bundled scenes. They are not printed, and as
 /// the eye sees them edge-on it loses nothing. A pillar or plate that is too thin is larger by far.

@@ -147,6 +147,7 @@ impl TriangleSheet {
             length_mm: line[0].distance(line[1]),
             line,
             crease: self.normal(i).angle_between(self.normal(j)),
+            knife: [false; 2],
             highest: self.highest,
         })
     }
