@@ -21,6 +21,20 @@ pub struct PlacedModel {
     pub marks: Arc<Marks>,
 }
 
+impl PlacedModel {
+    /// Its file, and how much of it is left if it was simplified.
+    pub fn source(&self) -> String {
+        let original = self.original.as_ref();
+        match original.and_then(|o| o.lowered_from.as_ref()) {
+            Some(from) => {
+                let (left, all) = (self.mesh.faces.len(), from.mesh.faces.len());
+                format!("{}; made from {left} of its {all} faces", self.file)
+            }
+            None => self.file.clone(),
+        }
+    }
+}
+
 /// What a scene says of the vertices of a mesh: each list is empty (nothing is said) or has an entry for every vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {

@@ -73,6 +73,16 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Warned<Vec<NamedMesh>>, D
         let message = "the beams of a lattice are not read: only triangles are";
         warnings.push(Diagnostic::warning(message).at(Place::File(file.to_owned())));
     }
+    let missing = assembly
+        .parts
+        .iter()
+        .find_map(|(_, part)| part.missing_properties());
+    if let Some((group, object)) = missing {
+        let message = format!(
+            "object {object} names the properties {group} (`pid`), which the file does not have; no materials or colours are read"
+        );
+        warnings.push(Diagnostic::warning(message).at(Place::File(file.to_owned())));
+    }
     let left_out = assembly.left_out();
     if assembly.bodies.is_empty() {
         let why = "the file has no triangles".to_owned();

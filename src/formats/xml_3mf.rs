@@ -9,7 +9,7 @@ use crate::mesh::TriMesh;
 use glam::{DMat4, DVec3, DVec4};
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One part.
 #[derive(Debug, Default)]
@@ -21,7 +21,24 @@ pub(super) struct ModelPart {
     /// Whether it has beams, which are not read.
     pub beams: bool,
     has_model: bool,
+    /// Of objects.
     ids: BTreeSet<u32>,
+    /// Of groups of properties.
+    resources: BTreeSet<u32>,
+    /// Groups of properties (materials, colours, textures) that objects and triangles name, and an object that does.
+    properties: BTreeMap<u32, u32>,
+}
+
+impl ModelPart {
+    /// A group of properties that is named, but not in the part, and an object that names it.
+    pub(super) fn missing_properties(&self) -> Option<(u32, u32)> {
+        let all = self
+            .properties
+            .iter()
+            .map(|(group, object)| (*group, *object));
+        all.filter(|(group, _)| !self.resources.contains(group))
+            .min()
+    }
 }
 
 #[derive(Debug)]
@@ -102,7 +119,11 @@ fn outermost(part: &ModelPart, e: &BytesStart, depth: usize) -> Result<(), Strin
 }
 
 fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
-    match e.local_name().as_ref() {
+    let name = e.local_name();
+    if RESOURCES.contains(&name.as_ref()) {
+        part.resources.insert(index(e, b"id")?);
+    }
+    match name.as_ref() {
         b"model" => {
             part.has_model = true;
             check_extensions(e)?;
@@ -115,6 +136,7 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
             if !part.ids.insert(id) {
                 return Err(format!("two objects have the id {id}"));
             }
+            properties(part, e, id)?;
             part.objects.push(XmlObject {
                 id,
                 no_body: match attribute(e, b"type")? {
@@ -136,6 +158,8 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
             if let Some(object) = part.objects.last_mut() {
                 let face = [index(e, b"v1")?, index(e, b"v2")?, index(e, b"v3")?];
                 object.mesh.faces.push(face.map(VertexId));
+                let id = object.id;
+                properties(part, e, id)?;
             }
         }
         b"component" => {
@@ -147,6 +171,23 @@ fn element(part: &mut ModelPart, e: &BytesStart) -> Result<(), String> {
         b"item" => part.items.push(instance(e)?),
         b"beam" => part.beams = true,
         _ => {}
+    }
+    Ok(())
+}
+
+/// Elements that objects and triangles may name as their properties.
+const RESOURCES: [&[u8]; 5] = [
+    b"basematerials",
+    b"colorgroup",
+    b"texture2dgroup",
+    b"compositematerials",
+    b"multiproperties",
+];
+
+/// Notes the group of properties that an element of an object names.
+fn properties(part: &mut ModelPart, e: &BytesStart, object: u32) -> Result<(), String> {
+    if attribute(e, b"pid")?.is_some() {
+        part.properties.entry(index(e, b"pid")?).or_insert(object);
     }
     Ok(())
 }

@@ -66,18 +66,7 @@ pub(super) fn captions(
 }
 
 fn of_target(view: &View) -> [String; 2] {
-    let file = |m: &PlacedModel| {
-        let lowered = m.original.as_ref().and_then(|o| o.lowered_from.as_ref());
-        match lowered {
-            Some(from) => {
-                let left = m.mesh.faces.len();
-                let all = from.mesh.faces.len();
-                format!("{}; made from {left} of its {all} faces", m.file)
-            }
-            None => m.file.clone(),
-        }
-    };
-    let files: Vec<String> = view.models.iter().map(file).collect();
+    let files: Vec<String> = view.models.iter().map(PlacedModel::source).collect();
     [format!("{}: the target", view.name), files.join(", ")]
 }
 

@@ -237,16 +237,16 @@ impl<'a> Functional<'a> {
                 let wrong = self.prices.ordered && (step - gap) * gap.signum() > self.same();
                 return if wrong { DISORDER } else { 0.0 };
             }
-            let knife = (step < -self.same() && s.knife[0]) || (step > self.same() && s.knife[1]);
-            let step = step.abs();
-            if knife {
-                KNIFE
-            } else if step <= self.same() {
+            let height = step.abs();
+            if height <= self.same() {
                 0.0
-            } else if step > highest + self.same() {
+            } else if height > highest + self.same() {
                 f64::INFINITY
             } else {
-                off * (self.prices.length + self.prices.height * step / self.patches.width)
+                let in_front = usize::from(step > 0.0);
+                let knife = if s.knife[in_front] { KNIFE } else { 0.0 };
+                off * (self.prices.length + self.prices.height * height / self.patches.width)
+                    + knife
             }
         };
         s.length_mm * (end(0) + end(1)) / 2.0

@@ -1,6 +1,6 @@
 //! The pieces a surface may fall into: patches (parts of faces seen on one group) and the seams between them.
 
-use super::options::{StepLimits, StepOptions, UNSEEN_RAD};
+use super::options::{LIP_MM, StepLimits, StepOptions, UNSEEN_RAD};
 use crate::geom::ImagePlane;
 use crate::groups::{Anchor, Groups, anchor};
 use crate::index::{CellId, FaceId, GroupId, SupportId, indices};
@@ -373,12 +373,21 @@ impl Stitching<'_> {
             length_mm: line[0].distance(line[1]) * self.scale,
             line,
             crease: a.cross(b).length().atan2(a.dot(b)),
-            knife: sides.map(|(p, c)| self.recession(p, c, line) > self.steepest),
+            knife: sides.map(|(p, c)| self.is_knife(p, c, line)),
             highest: pair
                 .map(|p| self.patches[p].highest)
                 .into_iter()
                 .fold(f64::INFINITY, f64::min),
         }
+    }
+
+    /// Whether a patch that stood free along the line where its `cell` begins would be a knife.
+    fn is_knife(&self, patch: PatchId, cell: CellId, line: [DVec2; 2]) -> bool {
+        let p = &self.patches[patch];
+        let depth = self.target.mesh.faces[p.face].map(|v| self.target.depth[v]);
+        // In a thinner layer nothing stands free for longer than a lip.
+        let deepest = (0..3).map(|k| depth[k] * (p.room[k].1.exp() - p.room[k].0.exp()));
+        deepest.fold(0.0, f64::max) > LIP_MM && self.recession(patch, cell, line) > self.steepest
     }
 
     /// By how many millimetres a patch grows deeper in the model for each millimetre away from the line where its `cell` begins.

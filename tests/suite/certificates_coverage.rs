@@ -501,10 +501,14 @@ impl Built {
     }
 
     fn sighted(&self, forest: &Forest, v: usize) -> Sighted {
+        self.sighted_by(SHARPNESS, forest, v)
+    }
+
+    fn sighted_by(&self, sharpness: Sharpness, forest: &Forest, v: usize) -> Sighted {
         let bvh = Bvh::new(forest.whole.mesh());
         let names = self.sights.iter().map(Sight::name).collect();
         let sight = &self.sights[v];
-        let finished = Finished::new(forest, &bvh, sight.image.field, names, SHARPNESS);
+        let finished = Finished::new(forest, &bvh, sight.image.field, names, sharpness);
         let (relief, given_up) = (&self.reliefs[v], &forest.given_up[v]);
         conflicts::sighted(sight, ViewId::new(v), relief, given_up, &finished)
     }
@@ -555,6 +559,15 @@ fn rays_find_a_finished_forest_free_and_a_box_before_it() {
     let lost = found.lost_sr[0] * SQUARE_ARCMIN;
     assert!((lost - arcmin2).abs() < 1e-4 * whole);
     assert!(!words::conflicts::warnings("a", &found, "pillar").is_empty());
+
+    // The face is 69 arc-minutes wide, the cells that it covers twice that. Who sees nothing below 300 is told nothing; the sum stays.
+    let sharpness = |seen| Sharpness { seen, ..SHARPNESS };
+    let unseen = built.sighted_by(sharpness(300.0), &spoilt, 0);
+    assert_eq!(unseen.disturbances, []);
+    assert!((unseen.small_arcmin2 - free.small_arcmin2 - arcmin2).abs() < 1e-6 * arcmin2);
+    assert!(words::conflicts::warnings("a", &unseen, "pillar").is_empty());
+    let seen = built.sighted_by(sharpness(40.0), &spoilt, 0);
+    assert_eq!(seen.disturbances, found.disturbances);
 }
 
 #[test]

@@ -126,6 +126,33 @@ fn a_layer_as_deep_as_the_forest_is_built() {
 }
 
 /// A model of 1.2 m seen from 9 m: what is rounded there is thirty times as much as on a desk, and no printer is asked.
+/// Twenty views of one model all want the same five pillars. What one cell after another is in the way of is not listed: it would be
+/// hundreds of millions of pairs.
+#[test]
+fn twenty_views_of_one_place_are_checked_like_two() {
+    let eye = |k: i32| {
+        let (y, x) = (f64::from(k) * std::f64::consts::TAU / 20.0).sin_cos();
+        format!(
+            "(name: \"v{k}\", eye: ({}, {}, 45), models: [\"m\"]),",
+            300.0 * x,
+            300.0 * y
+        )
+    };
+    let views: String = (0..20).map(eye).collect();
+    let text = format!(
+        "(models: [(name: \"m\", file: \"ball.obj\", place: Fit(height: 40, at: (0, 0, 8)))], views: [{views}],\n\
+         pillars: [(shape: Round(radius: 7), height: 60, places: At([(-16, 0), (16, 0), (0, 16), (0, -16), (0, 0)]))])"
+    );
+    let told = checked(&text).expect("warnings only");
+    let most = |d: &&Diagnostic| {
+        let words = d.message.split("misses ").nth(1);
+        let share = words.and_then(|t| t.split(' ').next()?.parse().ok());
+        share.is_some_and(|s: f64| s > 75.0)
+    };
+    assert_eq!(told.iter().filter(most).count(), 19, "{told:#?}");
+    assert_told(&told, "view \"v0\" needs p", "`contested` says who");
+}
+
 #[test]
 fn an_exhibit_is_in_order() {
     let pillars: String = (-3..=3)

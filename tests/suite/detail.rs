@@ -1,5 +1,6 @@
 //! Smaller forms of models: what simplifying keeps, and what scenes make of it.
 
+use super::meshes::cuboid;
 use super::shapes::{CUBE_FACES, ball};
 use glam::DVec3;
 use pillarforest::bvh::Bvh;
@@ -213,6 +214,29 @@ fn no_form_is_given_up_for_a_number() {
     );
 }
 
+#[test]
+fn models_that_cannot_be_smaller_say_how_many_vertices_they_keep() {
+    let mut rows = TriMesh::default();
+    for k in 0..30 {
+        let x = f64::from(k % 6) * 6.0;
+        rows.append(&cuboid([x, 0.0, f64::from(k / 6) * 7.0], [4.0; 3]));
+    }
+    let read = |_: &str| Ok::<_, Diagnostic>(obj(&rows));
+    let done = scene::resolve(&text("detail: 100, ", ""), &read).expect("a scene");
+    let kept = done.value.views[0].models[0].mesh.vertices.len();
+    let words = format!("keeps {kept} vertices, more than `detail: 100`");
+    let told = |d: &Diagnostic| {
+        d.message.contains(&words)
+            && d.place.is_some()
+            && d.help.iter().any(|h| h.contains("a larger `detail`"))
+    };
+    assert!(
+        kept > 100 && done.warnings.iter().any(told),
+        "{words}: {:?}",
+        done.warnings
+    );
+}
+
 fn obj(mesh: &TriMesh) -> Vec<u8> {
     let vertices = mesh.vertices.iter().map(|v| {
         let red = if v.z > 0.0 { 1 } else { 0 };
@@ -257,6 +281,14 @@ fn scenes_say_how_many_vertices_models_may_have() {
         let model = &scene.views[0].models[0];
         assert_eq!(model.mesh.vertices.len(), count);
         assert_eq!(model.matrix, whole.matrix, "placed by the whole model");
+        // A closed surface has two faces for every vertex, less four.
+        let of_all = format!(
+            "ball.obj; made from {} of its {} faces",
+            2 * count - 4,
+            2 * full - 4
+        );
+        let source = if count < full { &of_all } else { "ball.obj" };
+        assert_eq!(model.source(), source);
         let original = model.original.as_ref().expect("from a file");
         assert_eq!(original.mesh.vertices.len(), count);
         let lowered = original.lowered_from.as_ref().map(|from| from.vertices);

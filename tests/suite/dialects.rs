@@ -701,6 +701,35 @@ fn packages_that_cannot_be_read_whole_say_so() {
         assert!(error.message.contains(words), "{words}: {}", error.message);
     }
     // Beams beside triangles.
+    // Properties that are there are no matter; those that are not make one warning.
+    for (group, pid, told) in [
+        (
+            "<basematerials id=\"7\"><base name=\"red\" displaycolor=\"#FF0000\"/></basematerials>",
+            7,
+            0,
+        ),
+        (
+            "<m:colorgroup id=\"7\"><m:color color=\"#FF0000\"/></m:colorgroup>",
+            7,
+            0,
+        ),
+        ("<basematerials id=\"7\"/>", 8, 1),
+        ("", 8, 1),
+    ] {
+        for bearer in ["<object ", "<triangle "] {
+            let text = sound.replace(bearer, &format!("{bearer}pid=\"{pid}\" pindex=\"0\" "));
+            let text = text.replace("<resources>", &format!("<resources>{group}"));
+            let found = read_bodies("a.3mf", &package(&text, &[])).expect("bodies");
+            assert_eq!(found.value.len(), 1);
+            let words = "object 1 names the properties 8 (`pid`), which the file does not have";
+            let warned = found.warnings.iter().filter(|w| w.message.contains(words));
+            assert_eq!(
+                (warned.count(), found.warnings.len()),
+                (told, told),
+                "{text}"
+            );
+        }
+    }
     let beams = sound.replace(
         "</mesh>",
         "<b:beamlattice><b:beams><b:beam v1=\"0\" v2=\"1\"/></b:beams></b:beamlattice></mesh>",

