@@ -244,7 +244,11 @@ impl<'a> Functional<'a> {
                 f64::INFINITY
             } else {
                 let in_front = usize::from(step > 0.0);
-                let knife = if s.knife[in_front] { KNIFE } else { 0.0 };
+                let knife = if height > s.free[in_front] {
+                    KNIFE
+                } else {
+                    0.0
+                };
                 off * (self.prices.length + self.prices.height * height / self.patches.width)
                     + knife
             }

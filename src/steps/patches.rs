@@ -60,8 +60,9 @@ pub(crate) struct Seam {
     pub line: [DVec2; 2],
     /// Angle between the normals, radians.
     pub crease: f64,
-    /// Whether the first and the second patch are knives where they stand before the other (see [`StepOptions::steepest`]).
-    pub knife: [bool; 2],
+    /// By how much the first and the second patch may stand before the other (log depth). More, and they are knives: see
+    /// [`StepOptions::steepest`].
+    pub free: [f64; 2],
     /// Largest step allowed, log depth.
     pub highest: f64,
 }
@@ -373,7 +374,7 @@ impl Stitching<'_> {
             length_mm: line[0].distance(line[1]) * self.scale,
             line,
             crease: a.cross(b).length().atan2(a.dot(b)),
-            knife: sides.map(|(p, c)| self.is_knife(p, c, line)),
+            free: sides.map(|(p, c)| self.free(p, c, line)),
             highest: pair
                 .map(|p| self.patches[p].highest)
                 .into_iter()
@@ -381,13 +382,15 @@ impl Stitching<'_> {
         }
     }
 
-    /// Whether a patch that stood free along the line where its `cell` begins would be a knife.
-    fn is_knife(&self, patch: PatchId, cell: CellId, line: [DVec2; 2]) -> bool {
-        let p = &self.patches[patch];
-        let depth = self.target.mesh.faces[p.face].map(|v| self.target.depth[v]);
-        // In a thinner layer nothing stands free for longer than a lip.
-        let deepest = (0..3).map(|k| depth[k] * (p.room[k].1.exp() - p.room[k].0.exp()));
-        deepest.fold(0.0, f64::max) > LIP_MM && self.recession(patch, cell, line) > self.steepest
+    /// How far a patch may stand free along the line where its `cell` begins without being a knife, log depth.
+    fn free(&self, patch: PatchId, cell: CellId, line: [DVec2; 2]) -> f64 {
+        if self.recession(patch, cell, line) > self.steepest {
+            let depth =
+                self.target.mesh.faces[self.patches[patch].face].map(|v| self.target.depth[v]);
+            LIP_MM / (depth.iter().sum::<f64>() / 3.0)
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// By how many millimetres a patch grows deeper in the model for each millimetre away from the line where its `cell` begins.

@@ -116,8 +116,8 @@ fn sides(map: &ViewMap, relief: &Relief) -> Vec<([CellId; 2], [[usize; 2]; 2])> 
 
 #[test]
 fn torn_surfaces_keep_the_normals() {
-    // The deep waves have faces that are steeper than the layer is thick. Torn off in front they would be knives: with those it is 1.3.
-    for (setting, most) in settings().into_iter().zip([1.0, 1.8]) {
+    // The deep waves have faces that are steeper than the layer is thick.
+    for (setting, most) in settings().into_iter().zip([1.0, 1.5]) {
         let (whole, torn) = (whole_error(&setting), torn_error(&setting, &STEPS));
         assert!(
             whole > 5.0 && torn < most,
@@ -358,7 +358,9 @@ fn the_order_of_the_models_faces_hardly_matters() {
                 (p - pieces).abs() <= 2.0 + 0.1 * pieces,
                 "{p} pieces instead of {pieces}"
             );
-            assert!((e - error).abs() < 0.05, "{e} degrees instead of {error}");
+            // Where knives are not allowed the cost is no metric, and the sweeps end in one of several places.
+            let most = 0.05 + 0.1 * error;
+            assert!((e - error).abs() < most, "{e} degrees instead of {error}");
         }
     }
 }

@@ -147,7 +147,7 @@ impl TriangleSheet {
             length_mm: line[0].distance(line[1]),
             line,
             crease: self.normal(i).angle_between(self.normal(j)),
-            knife: [false; 2],
+            free: [f64::INFINITY; 2],
             highest: self.highest,
         })
     }
