@@ -18,8 +18,9 @@ use crate::viewmap::Image;
 /// surface.
 const ALPHA: f64 = 1e-9;
 
-/// No group is scaled by less. What is seen has a mean relative depth near 1, and a layer's depths differ by parts of that.
-const LEAST_SCALE: f64 = 0.1;
+/// No group is scaled by less: that of a support a thousand times as far from the eye as the model. At 0.1 a plate 14 times as far is
+/// 47 degrees off instead of 35. Far smaller values are within the solver's tolerance of 0, where contradictions vanish.
+const LEAST_SCALE: f64 = 1e-3;
 
 /// What all programs of one view have in common.
 pub(crate) struct Problem<'a> {
