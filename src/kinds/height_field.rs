@@ -9,7 +9,9 @@
 
 use super::crossings::{Crossings, crossings, moved};
 use super::optimised::Optimised;
-use crate::mimic::{Depths, Energy, Keeping, Orders, SolveError, depths, orders};
+use crate::mimic::{
+    Depths, Energy, Keeping, Orders, Program, SolveError, depths, orders, program_of,
+};
 use crate::relief::{Relief, relief};
 use crate::sight::Sight;
 
@@ -18,12 +20,23 @@ use crate::sight::Sight;
 /// # Errors
 /// As [`depths`](crate::mimic::depths).
 pub fn height_field_depths(energy: Energy, sight: &Sight) -> Result<Depths, SolveError> {
-    let orders = if energy.ordering() {
+    depths(energy, sight, &keeping(energy, sight))
+}
+
+/// The program whose optimum those are.
+///
+/// # Errors
+/// As [`depths`](crate::mimic::depths).
+pub fn height_field_program(energy: Energy, sight: &Sight) -> Result<Option<Program>, SolveError> {
+    program_of(energy, sight, &keeping(energy, sight))
+}
+
+fn keeping(energy: Energy, sight: &Sight) -> Keeping {
+    Keeping::seen(if energy.ordering() {
         orders(sight)
     } else {
         Orders::default()
-    };
-    depths(energy, sight, &Keeping::seen(orders))
+    })
 }
 
 /// A view's surface after optimisation.

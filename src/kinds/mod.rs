@@ -12,7 +12,7 @@ mod torn;
 mod whole;
 
 pub use crossings::{Crossings, crossings, moved};
-pub use height_field::{HeightField, height_field_depths};
+pub use height_field::{HeightField, height_field_depths, height_field_program};
 pub use hold::{Bounded, MustBeCut};
 pub use kind::ReliefKind;
 pub use optimised::Optimised;

@@ -41,7 +41,7 @@ pub use energy::{
 };
 pub use iterated::{Ending, Iterated, Round};
 pub use keeping::{FirstRows, Keeping, TakingPart};
-pub use minimise::{depths, opened_depths};
+pub use minimise::{depths, opened_depths, program_of};
 pub use opening::{Opening, Step, Tie};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};

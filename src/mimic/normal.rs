@@ -35,13 +35,13 @@ const HIDDEN: f64 = 0.1;
 /// contradict bounds.
 const TIE: f64 = 10.0;
 
-/// Depths of the faces that take part.
+/// Depths of the faces that take part, and the last program with all the rows that it came to.
 pub(crate) fn depths(
     options: NormalOptions,
     sight: &Sight,
     keeping: &Keeping,
     opening: Option<&Opening>,
-) -> Result<Depths, SolveError> {
+) -> Result<(Depths, Program), SolveError> {
     let Sight { image, groups, .. } = sight;
     let (target, map) = (&image.target, &image.map);
     let conditions = &conditions::all(groups, keeping);
@@ -103,12 +103,13 @@ pub(crate) fn depths(
         None => "free offsets are pulled to the model's depth",
         Some(_) => "every piece is pulled to where its tears were found",
     };
-    Ok(Depths {
+    let depths = Depths {
         s,
         mu,
         solved: Solved { gauge, ..solved },
         iterated: None,
-    })
+    };
+    Ok((depths, program))
 }
 
 /// Which faces count.

@@ -35,7 +35,7 @@ pub(crate) fn iterated(problem: &Problem, first: Depths) -> Depths {
     for k in 1..=problem.options.iterate as usize {
         let sheet = Sheet::new(&surface(problem, &last.s), problem.image.map.plane.eye);
         let forms = problem.model.rows_on(&sheet, &last.s);
-        let next = problem.solve(&sheet, &forms, &last.s);
+        let next = problem.solve(&sheet, &forms, &last.s).map(|found| found.0);
         let Some(next) = next.ok().filter(|d| d.s.iter().all(|s| *s > 0.0)) else {
             ending = Ending::Failed;
             break;

@@ -19,6 +19,7 @@ mod sheet;
 use super::depths::Depths;
 use super::energy::CurvatureOptions;
 use super::keeping::Keeping;
+use super::program::Program;
 use super::solve::SolveError;
 use crate::sight::Sight;
 use problem::Problem;
@@ -33,9 +34,21 @@ pub(crate) fn depths(
     keeping: &Keeping,
 ) -> Result<Depths, SolveError> {
     let problem = Problem::new(options, sight, keeping);
-    let first = problem.first()?;
+    let (first, _) = problem.first()?;
     if options.iterate == 0 {
         return Ok(first);
     }
     Ok(iterate::iterated(&problem, first))
+}
+
+/// The linearised problem with all the rows that its solution came to.
+///
+/// # Errors
+/// As [`depths`].
+pub(crate) fn program(
+    options: CurvatureOptions,
+    sight: &Sight,
+    keeping: &Keeping,
+) -> Result<Program, SolveError> {
+    Ok(Problem::new(options, sight, keeping).first()?.1)
 }

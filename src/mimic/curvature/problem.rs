@@ -50,7 +50,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The linearised problem.
-    pub(crate) fn first(&self) -> Result<Depths, SolveError> {
+    pub(crate) fn first(&self) -> Result<(Depths, Program), SolveError> {
         let forms = if self.options.scale_invariant {
             self.model.scale_invariant()
         } else {
@@ -64,7 +64,8 @@ impl<'a> Problem<'a> {
         self.model.areas[vertex] > 0.0
     }
 
-    /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`.
+    /// Minimises the sum of the squares of `forms`, rows of the surface `sheet` made at the relative depths `start`. Gives the program with
+    /// all the rows that it came to, too.
     ///
     /// # Errors
     /// As [`solve_lazily`].
@@ -73,7 +74,7 @@ impl<'a> Problem<'a> {
         sheet: &Sheet,
         forms: &[Form],
         start: &[f64],
-    ) -> Result<Depths, SolveError> {
+    ) -> Result<(Depths, Program), SolveError> {
         let scaled = self.options.group_scales;
         let tangent = |c: &Condition, at: &DepthsAndScales| {
             let row = row(&c.tightened(MARGIN * self.unit), at, start, self.unit);
@@ -104,7 +105,7 @@ impl<'a> Problem<'a> {
         };
         let (u, solved) = solve_lazily(&mut program, &self.conditions, &meaning, method)?;
         let (s, own) = depths(&u);
-        Ok(Depths {
+        let depths = Depths {
             mu: match scaled {
                 true => scales(self.groups, &self.conditions.all, &s, |g| own[g.at()]),
                 false => vec![1.0; self.groups.groups.len()],
@@ -115,7 +116,8 @@ impl<'a> Problem<'a> {
                 ..solved
             },
             iterated: None,
-        })
+        };
+        Ok((depths, program))
     }
 
     /// The program without rows.
