@@ -45,7 +45,7 @@ const ENERGIES: [(&str, Energy, Method); 2] = [
             ordering: true,
             reweight: 0,
         }),
-        Method::AugmentedLagrangian,
+        Method::WarmInterior,
     ),
 ];
 

@@ -69,7 +69,7 @@ fn program(solved: &Solved) -> ProgramReport {
         method: match solved.method {
             Method::InteriorPoint => "interior point",
             Method::DualWorkingSet => "dual working set",
-            Method::AugmentedLagrangian => "augmented Lagrangian",
+            Method::WarmInterior => "interior point on the normal equations",
         }
         .to_owned(),
         active_rows: solved.optimality.active,

@@ -8,7 +8,6 @@
 //! Symbols (paper): eye `o`; `lambda0` distance of a vertex from the eye in the model, `lambda` in the result;
 //! `s = lambda / lambda0` relative depth, `x = ln s`; `mu_g` scale of group `g`, `m_g = ln mu_g`; `w` vertex weights (Eq 13).
 
-mod augmented;
 mod blocks;
 mod certificate;
 mod compress;
@@ -20,6 +19,7 @@ mod dual;
 mod energy;
 mod factor;
 mod gradient;
+mod interior;
 mod iterated;
 mod keeping;
 mod lazily;
@@ -31,6 +31,7 @@ mod program;
 mod sheets;
 mod solve;
 mod solving;
+mod weighted;
 
 pub use certificate::{Optimality, optimality};
 pub use conditions::Condition;
@@ -39,6 +40,7 @@ pub use dual::Dual;
 pub use energy::{
     CurvatureForm, CurvatureOptions, Energy, FaceWeight, GradientOptions, NormalOptions,
 };
+pub use interior::Interior;
 pub use iterated::{Ending, Iterated, Round};
 pub use keeping::{FirstRows, Keeping, TakingPart};
 pub use minimise::{depths, opened_depths, program_of};

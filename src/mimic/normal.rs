@@ -86,7 +86,7 @@ pub(crate) fn depths(
     };
     let method = match opening {
         Some(_) => Method::DualWorkingSet,
-        None => Method::AugmentedLagrangian,
+        None => Method::WarmInterior,
     };
     let (mut u, mut solved) = solve_lazily(&mut program, conditions, &meaning, method)?;
     for _ in 0..options.reweight {

@@ -48,6 +48,14 @@ pub struct Program {
     pub rows: Vec<Row>,
 }
 
+impl Program {
+    /// Terms of all equalities, then of all rows.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = &[(usize, f64)]> {
+        let equalities = self.equalities.iter().map(|(terms, _)| &terms[..]);
+        equalities.chain(self.rows.iter().map(|row| &row.terms[..]))
+    }
+}
+
 /// Gathers `P` term by term.
 pub(crate) struct Quadratic {
     triplets: TriMat<f64>,

@@ -27,8 +27,8 @@ pub enum Method {
     InteriorPoint,
     /// One factorisation and a small dual (`dual`), for few binding rows.
     DualWorkingSet,
-    /// Newton steps on an augmented Lagrangian (`augmented`), for many.
-    AugmentedLagrangian,
+    /// An interior point on the normal equations (`interior`), for many.
+    WarmInterior,
 }
 
 /// What was reached for a program.
@@ -58,7 +58,7 @@ pub struct Solved {
 
 /// The solution of one block.
 #[derive(Clone, Debug)]
-pub(crate) struct SolvedBlock {
+pub struct SolvedBlock {
     pub u: Vec<f64>,
     /// Multipliers of rows and equalities.
     pub z: Vec<f64>,

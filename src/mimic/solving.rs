@@ -2,10 +2,10 @@
 //!
 //! A block whose rows stay as they were keeps its solution, one with more rows keeps its factor.
 
-use super::augmented::by_multipliers;
 use super::blocks::{Blocks, ProgramBlock};
 use super::certificate::optimality;
 use super::dual::Dual;
+use super::interior::Interior;
 use super::program::Program;
 use super::solve::{Method, Solution, SolveError, Solved, SolvedBlock, by_interior_point};
 use rayon::prelude::*;
@@ -23,7 +23,7 @@ pub fn solve(program: &Program) -> Result<Solution, SolveError> {
 /// # Errors
 /// As [`solve`].
 pub fn solve_by(program: &Program, method: Method) -> Result<Solution, SolveError> {
-    Solving::new(program, method).solve(program)
+    Solving::new(program, method).solve(program, true)
 }
 
 /// See the module.
@@ -38,8 +38,24 @@ pub(crate) struct Solving {
 enum BlockState {
     /// Not solved yet.
     New,
-    /// As it was solved with so many rows.
-    Solved(SolvedBlock, Option<Box<Dual>>, usize),
+    Solved(SolvedState),
+}
+
+/// A block as it was solved.
+struct SolvedState {
+    part: SolvedBlock,
+    way: BlockSolver,
+    /// With so many rows.
+    rows: usize,
+    exact: bool,
+}
+
+/// What a block is solved by if it has more rows.
+enum BlockSolver {
+    Dual(Box<Dual>),
+    Interior(Box<Interior>),
+    /// From nothing.
+    Anew,
 }
 
 impl Solving {
@@ -52,18 +68,19 @@ impl Solving {
         }
     }
 
-    /// The optimum of the program, to whose end rows may have been added since the last time.
+    /// The optimum of the program, to whose end rows may have been added since the last time; where that saves time something near it,
+    /// unless it is to be `exact`.
     ///
     /// # Errors
     /// As [`solve`].
-    pub(crate) fn solve(&mut self, program: &Program) -> Result<Solution, SolveError> {
+    pub(crate) fn solve(&mut self, program: &Program, exact: bool) -> Result<Solution, SolveError> {
         if let Some(before) = self.blocks.add(program) {
             self.take_over(&before);
         }
         let method = self.method;
         let states = std::mem::take(&mut self.states);
         let parts = states.into_par_iter().zip(&self.blocks.all);
-        let states = parts.map(|(state, block)| solved(state, &block.program, method));
+        let states = parts.map(|(state, block)| solved(state, &block.program, method, exact));
         self.states = all_solved(states.collect())?;
         Ok(self.whole(program))
     }
@@ -95,7 +112,7 @@ impl Solving {
             },
         };
         for (block, state) in self.blocks.all.iter().zip(&self.states) {
-            let BlockState::Solved(part, ..) = state else {
+            let BlockState::Solved(SolvedState { part, .. }) = state else {
                 continue;
             };
             let place = |to: &mut [f64], at: &[usize], from: &[f64]| {
@@ -116,38 +133,54 @@ impl Solving {
     }
 }
 
-/// Solves one block, unless it is solved already. The dual working set is left for good once it is at its limits.
-fn solved(state: BlockState, program: &Program, method: Method) -> Result<BlockState, SolveError> {
+/// Solves one block, unless it is solved already. A way that fails once is not tried again.
+fn solved(
+    state: BlockState,
+    program: &Program,
+    method: Method,
+    exact: bool,
+) -> Result<BlockState, SolveError> {
     let rows = program.rows.len();
-    let (mut dual, near) = match state {
-        BlockState::Solved(part, dual, with) if with == rows => {
-            return Ok(BlockState::Solved(part, dual, with));
+    let way = match state {
+        BlockState::Solved(known) if known.rows == rows && (known.exact || !exact) => {
+            return Ok(BlockState::Solved(known));
         }
-        BlockState::Solved(part, dual, _) => (dual, Some(part)),
-        BlockState::New => match method {
-            Method::DualWorkingSet => (Dual::new(program).map(Box::new), None),
-            Method::AugmentedLagrangian | Method::InteriorPoint => (None, None),
-        },
+        BlockState::Solved(known) => known.way,
+        BlockState::New => BlockSolver::new(program, method),
     };
-    if let Some(Solution { u, z, y, solved }) = dual.as_mut().and_then(|d| d.solve(program)) {
-        let Solved {
-            method, iterations, ..
-        } = solved;
-        let part = SolvedBlock {
-            u,
-            z,
-            y,
-            method,
-            iterations,
-        };
-        return Ok(BlockState::Solved(part, dual, rows));
+    let done = |part, way, exact| {
+        Ok(BlockState::Solved(SolvedState {
+            part,
+            way,
+            rows,
+            exact,
+        }))
+    };
+    match way {
+        BlockSolver::Dual(mut dual) => {
+            if let Some(part) = dual.solve(program) {
+                return done(part, BlockSolver::Dual(dual), true);
+            }
+        }
+        BlockSolver::Interior(mut interior) => {
+            if let Some(part) = interior.solve(program, exact) {
+                return done(part, BlockSolver::Interior(interior), exact);
+            }
+        }
+        BlockSolver::Anew => {}
     }
-    let found = match method {
-        Method::AugmentedLagrangian => by_multipliers(program, near.as_ref()),
-        Method::DualWorkingSet | Method::InteriorPoint => None,
-    };
-    let found = found.map_or_else(|| by_interior_point(program), Ok);
-    found.map(|part| BlockState::Solved(part, None, rows))
+    done(by_interior_point(program)?, BlockSolver::Anew, true)
+}
+
+impl BlockSolver {
+    fn new(program: &Program, method: Method) -> Self {
+        let way = match method {
+            Method::DualWorkingSet => Dual::new(program).map(|d| Self::Dual(Box::new(d))),
+            Method::WarmInterior => Interior::new(program).map(|i| Self::Interior(Box::new(i))),
+            Method::InteriorPoint => None,
+        };
+        way.unwrap_or(Self::Anew)
+    }
 }
 
 /// All blocks, or what is wrong with them: the contradictions of all, or else the first failure, whatever the thread count.

@@ -1,11 +1,11 @@
-//! The dual working set and the augmented Lagrangian against the interior point: the same optima, proved, or nothing.
+//! The dual working set and the interior point on the normal equations against the conic solver: the same optima, proved, or nothing.
 
 use crate::shapes::{Setting, ball};
 use glam::DVec3;
 use pillarforest::laplacian::FaceGeometry;
 use pillarforest::mimic::{
-    CurvatureOptions, Dual, Energy, Method, Program, Row, RowKind, Solution, SolveError, solve,
-    solve_by,
+    CurvatureOptions, Dual, Energy, Interior, Method, Program, Row, RowKind, Solution, SolveError,
+    solve, solve_by,
 };
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -90,8 +90,7 @@ impl Balls {
 
 /// All methods' optima are one, and proved.
 fn assert_same(program: &Program) -> Solution {
-    let dual = Dual::new(program).expect("semidefinite").solve(program);
-    let dual = dual.expect("within the limits");
+    let dual = solve_by(program, Method::DualWorkingSet).expect("feasible");
     let other = solve(program).expect("feasible");
     let [a, b] = [&dual, &other].map(|s| s.solved.optimality);
     assert!(
@@ -105,15 +104,15 @@ fn assert_same(program: &Program) -> Solution {
     assert_eq!(dual.solved.method, Method::DualWorkingSet);
     assert_eq!(other.solved.method, Method::InteriorPoint);
     assert!(dual.z.iter().all(|z| *z >= 0.0));
-    let augmented = solve_by(program, Method::AugmentedLagrangian).expect("feasible");
-    let c = augmented.solved.optimality;
+    let warm = solve_by(program, Method::WarmInterior).expect("feasible");
+    let c = warm.solved.optimality;
     assert!(
         (c.objective - b.objective).abs() <= 1e-6 * b.objective.abs().max(1e-2),
         "{c:?} against {b:?}"
     );
     assert!(c.primal_residual < 2e-7 && c.dual_residual < 1e-7, "{c:?}");
-    assert_eq!(augmented.solved.method, Method::AugmentedLagrangian);
-    assert!(augmented.z.iter().all(|z| *z >= 0.0));
+    assert_eq!(warm.solved.method, Method::WarmInterior);
+    assert!(warm.z.iter().all(|z| *z >= 0.0));
     dual
 }
 
@@ -213,12 +212,19 @@ fn rows_added_later_give_what_they_give_at_once() {
     };
     (0..8).for_each(|v| bound(&mut grown, v));
     let mut dual = Dual::new(&grown.program).expect("semidefinite");
+    let mut interior = Interior::new(&grown.program).expect("memory");
     let mut last = f64::MIN;
     for step in 1..4 {
         let solution = dual.solve(&grown.program).expect("feasible");
-        let objective = solution.solved.optimality.objective;
         let cold = assert_same(&grown.program);
+        let objective = cold.solved.optimality.objective;
         assert!(apart(&solution.u, &cold.u) < 1e-6);
+        let near = interior.solve(&grown.program, false).expect("feasible");
+        let warm = interior.solve(&grown.program, true).expect("feasible");
+        assert!(apart(&warm.u, &cold.u) < 1e-4);
+        // Short of the optimum is near it, and inside the bounds that it reaches.
+        let distance = apart(&near.u, &cold.u);
+        assert!((1e-9..0.05).contains(&distance), "{distance}");
         assert!(objective > last);
         last = objective;
         (8 * step..8 * step + 8).for_each(|v| bound(&mut grown, v));
@@ -235,7 +241,7 @@ fn a_contradiction_is_left_to_the_interior_point() {
     for method in [
         Method::InteriorPoint,
         Method::DualWorkingSet,
-        Method::AugmentedLagrangian,
+        Method::WarmInterior,
     ] {
         let error = solve_by(&torn.program, method).unwrap_err();
         assert!(

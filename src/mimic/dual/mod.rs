@@ -24,7 +24,7 @@ mod pinned;
 use super::certificate::optimality;
 use super::factor::Half;
 use super::program::Program;
-use super::solve::{Method, Solution, Solved};
+use super::solve::{Method, SolvedBlock};
 use contacts::Contacts;
 use pinned::Pinned;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ impl Dual {
 
     /// The optimum of the program, to which rows may have been added since the last time; nothing if it is not proved within
     /// the limits.
-    pub fn solve(&mut self, program: &Program) -> Option<Solution> {
+    pub fn solve(&mut self, program: &Program) -> Option<SolvedBlock> {
         self.is_in_hand.resize(program.rows.len(), false);
         for _ in 0..ROUNDS {
             self.rounds += 1;
@@ -204,20 +204,21 @@ impl Dual {
         peaks.take(AT_ONCE).collect()
     }
 
-    fn proved(&self, program: &Program, u: Vec<f64>, z: Vec<f64>, y: Vec<f64>) -> Option<Solution> {
+    fn proved(
+        &self,
+        program: &Program,
+        u: Vec<f64>,
+        z: Vec<f64>,
+        y: Vec<f64>,
+    ) -> Option<SolvedBlock> {
         let optimality = optimality(program, &u, &z, &y);
-        let solved = Solved {
-            variables: program.variables,
-            rows: program.rows.len(),
-            blocks: 1,
+        optimality.is_proof().then_some(SolvedBlock {
+            u,
+            z,
+            y,
             method: Method::DualWorkingSet,
             iterations: self.rounds,
-            optimality,
-            ..Solved::default()
-        };
-        optimality
-            .is_proof()
-            .then_some(Solution { u, z, y, solved })
+        })
     }
 }
 
