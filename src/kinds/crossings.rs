@@ -1,7 +1,7 @@
 //! What crosses in the optimised mesh as a whole, counted exactly.
 
 use crate::mesh::{TriMesh, self_intersections};
-use crate::mimic::{Depths, Order, sheet_orders};
+use crate::mimic::{Depths, Order, turned_sheets};
 use crate::viewmap::Image;
 
 /// The mesh where the depths put it.
@@ -34,16 +34,16 @@ const SAME_DEPTH: f64 = 1e-12;
 /// Counts crossings; `mesh` is [`moved`]'s.
 pub fn crossings(image: &Image, mesh: &TriMesh, depths: &Depths) -> Crossings {
     let target = &image.target;
-    let (orders, pairs) = rayon::join(
-        || sheet_orders(target, 0.0),
-        || [mesh, &target.mesh].map(|m| self_intersections(m, MOST_PAIRS).len()),
-    );
-    let turned = |o: &&Order| {
+    let turned = |o: &Order| {
         let [front, back] = [o.front, o.back].map(|a| a.relative_depth(&depths.s));
         (front * o.ratio / back).ln() > SAME_DEPTH
     };
+    let (order_inversions, pairs) = rayon::join(
+        || turned_sheets(target, turned),
+        || [mesh, &target.mesh].map(|m| self_intersections(m, MOST_PAIRS).len()),
+    );
     Crossings {
-        order_inversions: orders.all.iter().filter(turned).count(),
+        order_inversions,
         self_intersections: pairs[0],
         in_model: pairs[1],
     }

@@ -47,6 +47,6 @@ pub use minimise::{depths, opened_depths, program_of};
 pub use opening::{Opening, Step, Tie};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
-pub use sheets::sheet_orders;
+pub use sheets::{sheet_orders, turned_sheets};
 pub use solve::{Method, Solution, SolveError, Solved};
 pub use solving::{solve, solve_by};

@@ -15,15 +15,19 @@
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, anchor};
 use crate::index::{CellId, FaceId, GroupId, VertexId};
+use crate::mesh::{Edges, TriMesh};
 use crate::sight::Sight;
 use crate::viewmap::{Cell, Target, ViewMap};
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Pairs nearer than this share of the model's depth (of the reading distance, for an eye at infinity) touch rather than overlap: an
 /// order between them only adds noise.
 const APART: f64 = 1e-4;
 /// Sheets nearer than this along a side of cells hang together there, millimetres: merging thin cells moves them by as much.
 pub const TOGETHER_MM: f64 = 0.02;
+/// Height of a strip of the image in mean heights of faces: below 2 faces are in many strips, above 10 the sweeps are long.
+const STRIP: f64 = 4.0;
 /// A vertex this far inside the image of a face (barycentric) lies in it rather than on its side, where edges cross.
 const INSIDE: f64 = 1e-9;
 
@@ -55,21 +59,26 @@ pub fn orders(sight: &Sight) -> Orders {
         apart: APART / map.plane.focal,
         lookup: FaceGroups::new(sight),
     };
-    let (mut vertices, mut edges) = (Vec::new(), Vec::new());
-    for pair in overlapping(target, &seen_faces(map)) {
-        vertices.extend(finder.vertices_inside(pair));
-        edges.extend(finder.edges_crossing(pair));
-    }
-    let mut found = sorted(vertices, edges);
+    let events = |pairs: Vec<[FaceId; 2]>| {
+        let (mut vertices, mut edges) = (Vec::new(), Vec::new());
+        for pair in pairs {
+            vertices.extend(finder.vertices_inside(pair));
+            edges.extend(finder.edges_crossing(pair));
+        }
+        (vertices, edges)
+    };
+    let found: Vec<_> = overlapping(target, &seen_faces(map)).map(events).collect();
+    let (vertices, edges): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+    let mut found = sorted(vertices.concat(), edges.concat());
     found.all.extend(at_seams(sight));
     found
 }
 
 /// Those of the events, each told by both its faces, with a vertex's nearest neighbours first.
-pub(super) fn sorted(mut vertices: Vec<VertexEvent>, mut edges: Vec<(EdgePair, Order)>) -> Orders {
+pub(super) fn sorted(mut vertices: Vec<VertexEvent>, mut edges: Vec<EdgeEvent>) -> Orders {
     vertices.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     // Both faces of an edge tell of its crossings.
-    edges.sort_by_key(|e: &(EdgePair, Order)| (e.0, e.1.front_group, e.1.back_group));
+    edges.sort_by_key(|e: &EdgeEvent| (e.0, e.1.front_group, e.1.back_group));
     edges.dedup_by_key(|e| (e.0, e.1.front_group, e.1.back_group));
     let is_nearest = |i: &usize| *i == 0 || vertices[*i - 1].0 != vertices[*i].0;
     let (nearest, others): (Vec<usize>, Vec<usize>) =
@@ -127,7 +136,9 @@ pub(super) fn order(
 }
 
 /// The vertices of two edges, each pair rising.
-pub(super) type EdgePair = [[VertexId; 2]; 2];
+type EdgePair = [[VertexId; 2]; 2];
+/// Two edges that cross in the image, and the order there.
+pub(super) type EdgeEvent = (EdgePair, Order);
 /// A vertex, its group and whether it is behind a face; how far, relatively; the order of both.
 pub(super) type VertexEvent = ((VertexId, GroupId, bool), f64, Order);
 
@@ -165,7 +176,7 @@ impl Finder<'_> {
     }
 
     /// Crossings of an edge of one face with one of the other in the image.
-    fn edges_crossing(&self, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> {
+    fn edges_crossing(&self, pair: [FaceId; 2]) -> Vec<EdgeEvent> {
         let faces = pair.map(|f| self.target.mesh.faces[f]);
         let images = pair.map(|f| self.target.image_of(f));
         let mut events = Vec::new();
@@ -209,24 +220,56 @@ fn seen_faces(map: &ViewMap) -> Vec<FaceId> {
     faces
 }
 
-/// Pairs of faces whose boxes in the image overlap, each once: a sweep over their left ends.
-pub(super) fn overlapping(target: &Target, faces: &[FaceId]) -> Vec<[FaceId; 2]> {
+/// Pairs of faces whose boxes in the image meet, each once, rising, and cut up for tasks: the image is cut into strips, and in each a
+/// sweep goes from left to right.
+pub(super) fn overlapping(
+    target: &Target,
+    faces: &[FaceId],
+) -> impl IndexedParallelIterator<Item = Vec<[FaceId; 2]>> {
     let image_box = |f: &FaceId| {
         let [a, b, c] = target.image_of(*f);
         (a.min(b).min(c), a.max(b).max(c), *f)
     };
-    let mut boxes: Vec<(DVec2, DVec2, FaceId)> = faces.iter().map(image_box).collect();
+    let mut boxes: Vec<ImageBox> = faces.iter().map(image_box).collect();
     boxes.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.2.cmp(&b.2)));
-    let mut pairs = Vec::new();
-    let mut open: Vec<(DVec2, DVec2, FaceId)> = Vec::new();
-    for next in boxes {
-        open.retain(|o| o.1.x > next.0.x);
-        let across = open.iter().filter(|o| o.0.y < next.1.y && next.0.y < o.1.y);
-        pairs.extend(across.map(|o| [o.2.min(next.2), o.2.max(next.2)]));
-        open.push(next);
+    let low = boxes.iter().fold(f64::INFINITY, |y, b| y.min(b.0.y));
+    let tall = boxes.iter().map(|b| b.1.y - b.0.y).sum::<f64>() / boxes.len().max(1) as f64;
+    let high = boxes.iter().fold(low, |y, b| y.max(b.1.y));
+    let height = (STRIP * tall).max((high - low) / boxes.len() as f64);
+    let strip = move |y: f64| ((y - low) / height) as usize;
+    let top = boxes.iter().map(|b| strip(b.1.y)).max();
+    let mut strips = vec![Vec::new(); top.map_or(0, |t| t + 1)];
+    for b in boxes {
+        (strip(b.0.y)..=strip(b.1.y)).for_each(|s| strips[s].push(b));
     }
-    pairs.sort_unstable();
-    pairs
+    // Where both boxes begin in a strip or before, so that only one strip tells of them.
+    let within = move |s: usize, a: &ImageBox, b: &ImageBox| {
+        let meet = a.0.y <= b.1.y && b.0.y <= a.1.y;
+        meet && strip(a.0.y.max(b.0.y)) == s
+    };
+    strips.into_par_iter().enumerate().map(move |(s, boxes)| {
+        let (mut pairs, mut open) = (Vec::new(), Vec::<ImageBox>::new());
+        for next in boxes {
+            open.retain(|o| o.1.x >= next.0.x);
+            let across = open.iter().filter(|o| within(s, o, &next));
+            pairs.extend(across.map(|o| [o.2.min(next.2), o.2.max(next.2)]));
+            open.push(next);
+        }
+        pairs.sort_unstable();
+        pairs
+    })
+}
+
+/// Lowest and highest corner of a face's image.
+type ImageBox = (DVec2, DVec2, FaceId);
+
+/// For every face by which of its sides, bits 0 to 2, it is the first of the side's faces: those tell of an edge's crossings.
+pub(super) fn first_sides(mesh: &TriMesh) -> Vec<u8> {
+    let mut first = vec![0; mesh.faces.len()];
+    for edge in Edges::new(mesh).iter() {
+        first[edge[0].face] |= 1 << edge[0].corner;
+    }
+    first
 }
 
 /// The groups of faces, and which groups meet.

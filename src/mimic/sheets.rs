@@ -4,10 +4,13 @@
 //! micrometres off in depth. So whether a vertex lies inside a face is decided by exact signs, and where edges cross both points are
 //! mixes of the edges' own ends, never of edge-on faces.
 
-use super::ordering::{EdgePair, Order, Orders, VertexEvent, order, overlapping, sorted};
+use super::ordering::{
+    EdgeEvent, Order, Orders, VertexEvent, first_sides, order, overlapping, sorted,
+};
 use crate::geom::orient;
 use crate::groups::{Anchor, vertex_anchor};
 use crate::index::{FaceId, GroupId, VertexId};
+use crate::mesh::topology::sides;
 use crate::viewmap::Target;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -22,31 +25,46 @@ const REACH: f64 = 1e-9;
 const PARALLEL: f64 = 1e-12;
 /// The group of a whole mesh.
 const ONLY: GroupId = GroupId(0);
-/// Pairs of faces that one task looks at.
-const PAIRS: usize = 1 << 14;
 
 /// Orders at all events of a whole mesh that is one group: all sheets on every ray. In the result sheets are to stay `gap_mm`
 /// apart, along the forward axis, but need not keep more than [`GAP_SHARE`] of what parts them in the model.
 pub fn sheet_orders(target: &Target, gap_mm: f64) -> Orders {
-    let faces: Vec<FaceId> = FaceId::all(target.mesh.faces.len()).collect();
-    let pairs = overlapping(target, &faces);
-    let events = |pairs: &[[FaceId; 2]]| {
-        let (mut vertices, mut edges) = (Vec::new(), Vec::new());
-        for pair in pairs {
-            vertices.extend(vertices_inside(target, *pair));
-            edges.extend(edges_crossing(target, *pair));
-        }
-        (vertices, edges)
-    };
-    let found: Vec<_> = pairs.par_chunks(PAIRS).map(events).collect();
-    let (vertices, edges): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-    let mut orders = sorted(vertices.concat(), edges.concat());
+    let (vertices, edges) = events(target, |_| true);
+    let mut orders = sorted(vertices, edges);
     for order in &mut orders.all {
         let depth = target.depth[order.back.vertices[0]];
         let gap = (gap_mm / depth).min(-GAP_SHARE * order.ratio.ln());
         order.ratio *= gap.exp();
     }
     orders
+}
+
+/// Number of all events of a whole mesh whose order `is_turned`.
+pub fn turned_sheets(target: &Target, is_turned: impl Fn(&Order) -> bool + Sync) -> usize {
+    let (vertices, edges) = events(target, is_turned);
+    vertices.len() + edges.len()
+}
+
+/// Events whose order is wanted.
+fn events(
+    target: &Target,
+    wanted: impl Fn(&Order) -> bool + Sync,
+) -> (Vec<VertexEvent>, Vec<EdgeEvent>) {
+    let faces: Vec<FaceId> = FaceId::all(target.mesh.faces.len()).collect();
+    let first_sides = first_sides(&target.mesh);
+    let events = |pairs: Vec<[FaceId; 2]>| {
+        let (mut vertices, mut edges) = (Vec::new(), Vec::new());
+        for pair in pairs {
+            let inside = vertices_inside(target, pair).into_iter();
+            vertices.extend(inside.filter(|e| wanted(&e.2)));
+            let crossing = edges_crossing(target, &first_sides, pair).into_iter();
+            edges.extend(crossing.filter(|e| wanted(&e.1)));
+        }
+        (vertices, edges)
+    };
+    let found: Vec<_> = overlapping(target, &faces).map(events).collect();
+    let (vertices, edges): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+    (vertices.concat(), edges.concat())
 }
 
 /// Vertices of one face strictly inside the image of the other.
@@ -72,17 +90,14 @@ fn vertices_inside(target: &Target, pair: [FaceId; 2]) -> Vec<VertexEvent> {
 }
 
 /// Crossings of an edge of one face with one of the other in the image.
-fn edges_crossing(target: &Target, pair: [FaceId; 2]) -> Vec<(EdgePair, Order)> {
-    let edges = pair.map(|f| {
-        let face = target.mesh.faces[f];
-        [0, 1, 2].map(|k| {
-            let (a, b) = (face[k], face[(k + 1) % 3]);
-            [a.min(b), a.max(b)]
-        })
-    });
+fn edges_crossing(target: &Target, first_sides: &[u8], pair: [FaceId; 2]) -> Vec<EdgeEvent> {
+    let edges = pair.map(|f| sides(target.mesh.faces[f]).map(|[a, b]| [a.min(b), a.max(b)]));
+    let told = pair.map(|f| first_sides[f.at()]);
     let mut events = Vec::new();
-    for [i, j] in (0..9).map(|n| [edges[0][n / 3], edges[1][n % 3]]) {
-        if i.iter().any(|v| j.contains(v)) {
+    for [m, n] in (0..9).map(|n| [n / 3, n % 3]) {
+        let [i, j] = [edges[0][m], edges[1][n]];
+        let elsewhere = told[0] & (1 << m) == 0 || told[1] & (1 << n) == 0;
+        if elsewhere || i.iter().any(|v| j.contains(v)) {
             continue;
         }
         // From both faces alike.
