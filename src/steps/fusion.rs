@@ -288,17 +288,20 @@ impl<'a> Functional<'a> {
         &self.incident[i]
     }
 
-    /// Takes the proposal where that lowers the functional most, over all choices of its patches at once. Gives the patches
-    /// that changed. `variable` is room for one number a patch, all `None`, and is left so.
+    /// Takes the proposal where that lowers the functional most, over all choices of its patches at once: those that are
+    /// `stale`, and what hangs together with them through patches it would change. Gives the patches that changed. `variable` is room
+    /// for one number a patch, all `None`, and is left so.
     fn fuse(
         &self,
         field: &mut PatchDepths,
         proposal: &[LevelProposal],
+        stale: impl Fn(OwnPatch) -> bool,
         variable: &mut [Option<usize>],
     ) -> Vec<OwnPatch> {
         let differs =
             |(i, y): &&LevelProposal| (0..3).any(|k| (y[k] - field[*i][k]).abs() > self.same());
         let members: Vec<LevelProposal> = proposal.iter().filter(differs).copied().collect();
+        let members = self.around(members, stale, variable);
         for (v, (i, _)) in members.iter().enumerate() {
             variable[*i] = Some(v);
         }
@@ -331,6 +334,29 @@ impl<'a> Functional<'a> {
             swap(field, &mut changed);
             Vec::new()
         }
+    }
+
+    /// The members that hang together with `stale` ones through others. `variable` as of [`Self::fuse`].
+    fn around(
+        &self,
+        members: Vec<LevelProposal>,
+        stale: impl Fn(OwnPatch) -> bool,
+        variable: &mut [Option<usize>],
+    ) -> Vec<LevelProposal> {
+        for (v, (i, _)) in members.iter().enumerate() {
+            variable[*i] = Some(v);
+        }
+        let mut open: Vec<OwnPatch> = members.iter().map(|m| m.0).filter(|i| stale(*i)).collect();
+        open.iter().for_each(|i| variable[*i] = None);
+        while let Some(i) = open.pop() {
+            for n in self.incident(i) {
+                let beside = self.local(&self.seams[*n]).into_iter();
+                open.extend(beside.filter(|j| variable[*j].take().is_some()));
+            }
+        }
+        // What still has its number was not reached.
+        let reached = |m: &LevelProposal| variable[m.0].take().is_none();
+        members.into_iter().filter(reached).collect()
     }
 
     /// What some patches and all their seams cost.
@@ -418,8 +444,8 @@ impl<'a> Functional<'a> {
         levels
     }
 
-    /// Sweeps all levels over the field until nothing changes. A level is tried again only if something changed within its
-    /// reach since it was last tried.
+    /// Sweeps all levels over the field until nothing changes. A level is tried again only where something changed since it was last
+    /// tried: what hangs together with nothing new has its best choice already.
     pub(crate) fn descend(&self, field: &mut PatchDepths) {
         let levels = self.levels();
         let mut variable = vec![None; self.range.len()];
@@ -430,19 +456,14 @@ impl<'a> Functional<'a> {
         for sweep in 0..SWEEPS {
             let mut any = false;
             for (k, members) in levels.iter().enumerate() {
-                let stale = |i: OwnPatch| changed_at[i] > tried_at[k];
-                let near = |i: OwnPatch| {
-                    self.incident(i)
-                        .iter()
-                        .flat_map(|n| self.local(&self.seams[*n]))
-                        .any(stale)
-                };
-                if sweep > 0 && !members.iter().any(|m| near(m.0)) {
-                    continue;
-                }
+                let tried = std::mem::replace(&mut tried_at[k], now + 1);
                 now += 1;
-                tried_at[k] = now;
-                let changed = self.fuse(field, members, &mut variable);
+                let stale = |i: OwnPatch| {
+                    let seams = self.incident(i).iter();
+                    let mut beside = seams.flat_map(|n| self.local(&self.seams[*n]));
+                    sweep == 0 || beside.any(|j| changed_at[j] > tried)
+                };
+                let changed = self.fuse(field, members, stale, &mut variable);
                 any |= !changed.is_empty();
                 changed.iter().for_each(|i| changed_at[*i] = now);
             }
