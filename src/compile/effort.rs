@@ -48,11 +48,11 @@ fn per_vertex(relief: &ReliefKind) -> f64 {
     match relief {
         ReliefKind::Whole(..) => 2e-3,
         ReliefKind::HeightField(Energy::Curvature(options)) => {
-            2.5e-4 + 1.5e-4 * f64::from(options.iterate)
+            8e-5 + 6e-5 * f64::from(options.iterate)
         }
-        ReliefKind::HeightField(Energy::Linear | Energy::Gradient(_)) => 1.5e-4,
+        ReliefKind::HeightField(Energy::Linear | Energy::Gradient(_)) => 5e-5,
         ReliefKind::HeightField(Energy::Normal(options)) | ReliefKind::Torn(options, _) => {
-            4e-4 + 2e-4 * f64::from(options.reweight)
+            1.1e-4 + 6e-5 * f64::from(options.reweight)
         }
     }
 }

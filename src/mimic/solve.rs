@@ -20,15 +20,16 @@ const CONIC_TOLERANCE: f64 = 1e-11;
 /// Rows with a smaller share in a contradiction than this, of the largest, are rounding: true shares differ by the weights of corners.
 const MATTERS: f64 = 1e-3;
 
-/// How a program was solved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How a program was solved; where one fails the next takes over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
-    #[default]
-    InteriorPoint,
     /// One factorisation and a small dual (`dual`), for few binding rows.
     DualWorkingSet,
     /// An interior point on the normal equations (`interior`), for many.
     WarmInterior,
+    /// A general conic solver (`clarabel`), which also proves contradictions.
+    #[default]
+    InteriorPoint,
 }
 
 /// What was reached for a program.

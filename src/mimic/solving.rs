@@ -44,18 +44,18 @@ enum BlockState {
 /// A block as it was solved.
 struct SolvedState {
     part: SolvedBlock,
-    way: BlockSolver,
+    solver: BlockSolver,
     /// With so many rows.
     rows: usize,
     exact: bool,
 }
 
-/// What a block is solved by if it has more rows.
+/// What a block is solved by, which goes on if it has more rows; the next where one fails.
 enum BlockSolver {
     Dual(Box<Dual>),
     Interior(Box<Interior>),
-    /// From nothing.
-    Anew,
+    /// From nothing every time.
+    Conic,
 }
 
 impl Solving {
@@ -124,8 +124,8 @@ impl Solving {
             let told = &mut whole.solved;
             told.iterations = told.iterations.max(part.iterations);
             // Lone unknowns that nothing binds are no matter of method.
-            if part.method == Method::InteriorPoint && !block.rows.is_empty() {
-                told.method = Method::InteriorPoint;
+            if !block.rows.is_empty() {
+                told.method = told.method.max(part.method);
             }
         }
         whole.solved.optimality = optimality(program, &whole.u, &whole.z, &whole.y);
@@ -133,7 +133,10 @@ impl Solving {
     }
 }
 
-/// Solves one block, unless it is solved already. A way that fails once is not tried again.
+/// Solves one block, unless it is solved already. A solver that fails once is left for the next for good.
+///
+/// # Errors
+/// As [`solve`].
 fn solved(
     state: BlockState,
     program: &Program,
@@ -141,45 +144,45 @@ fn solved(
     exact: bool,
 ) -> Result<BlockState, SolveError> {
     let rows = program.rows.len();
-    let way = match state {
+    let mut solver = match state {
         BlockState::Solved(known) if known.rows == rows && (known.exact || !exact) => {
             return Ok(BlockState::Solved(known));
         }
-        BlockState::Solved(known) => known.way,
+        BlockState::Solved(known) => known.solver,
         BlockState::New => BlockSolver::new(program, method),
     };
-    let done = |part, way, exact| {
-        Ok(BlockState::Solved(SolvedState {
-            part,
-            way,
-            rows,
-            exact,
-        }))
-    };
-    match way {
-        BlockSolver::Dual(mut dual) => {
-            if let Some(part) = dual.solve(program) {
-                return done(part, BlockSolver::Dual(dual), true);
-            }
+    loop {
+        let (part, exact) = match &mut solver {
+            BlockSolver::Dual(dual) => (dual.solve(program), true),
+            BlockSolver::Interior(interior) => (interior.solve(program, exact), exact),
+            BlockSolver::Conic => (Some(by_interior_point(program)?), true),
+        };
+        if let Some(part) = part {
+            return Ok(BlockState::Solved(SolvedState {
+                part,
+                solver,
+                rows,
+                exact,
+            }));
         }
-        BlockSolver::Interior(mut interior) => {
-            if let Some(part) = interior.solve(program, exact) {
-                return done(part, BlockSolver::Interior(interior), exact);
-            }
-        }
-        BlockSolver::Anew => {}
+        solver = match solver {
+            BlockSolver::Dual(_) => BlockSolver::new(program, Method::WarmInterior),
+            BlockSolver::Interior(_) | BlockSolver::Conic => BlockSolver::Conic,
+        };
     }
-    done(by_interior_point(program)?, BlockSolver::Anew, true)
 }
 
 impl BlockSolver {
+    /// That of the method, or the next one.
     fn new(program: &Program, method: Method) -> Self {
-        let way = match method {
-            Method::DualWorkingSet => Dual::new(program).map(|d| Self::Dual(Box::new(d))),
-            Method::WarmInterior => Interior::new(program).map(|i| Self::Interior(Box::new(i))),
+        let dual = || Some(Self::Dual(Box::new(Dual::new(program)?)));
+        let interior = || Some(Self::Interior(Box::new(Interior::new(program)?)));
+        match method {
+            Method::DualWorkingSet => dual().or_else(interior),
+            Method::WarmInterior => interior(),
             Method::InteriorPoint => None,
-        };
-        way.unwrap_or(Self::Anew)
+        }
+        .unwrap_or(Self::Conic)
     }
 }
 

@@ -4,14 +4,18 @@ use super::min_cut::BinaryEnergy;
 use super::patches::{Patch, PatchId, Patches, Seam, mixed};
 use crate::index::indices;
 use crate::mesh::DisjointSets;
+use rayon::prelude::*;
 
 /// Log depths (of an eye at infinity: `focal` times these) nearer than this are the same: a millionth of a millimetre.
 const SAME: f64 = 1e-8;
 /// Levels of constant depth tried within one layer's width. At 4 the lines of the reference forest are 5 to 8 % longer, at 24 they
 /// are 1 to 5 % shorter for four times the work.
 const LEVELS: f64 = 12.0;
-/// Sweeps over all levels at most. Nearly everything happens in the first two; after the fourth nothing was seen to change.
-const SWEEPS: usize = 8;
+/// Sweeps over all levels at most: six are the most so far.
+const SWEEPS: usize = 12;
+/// A sweep that gains less than this share is the last. At 0 one more is needed to see that nothing changes, at 1e-2 some views end a
+/// fiftieth higher; at 1e-3 the most that was lost is 0.6 %.
+const LITTLE: f64 = 1e-3;
 /// A level may lie outside what a patch allows by this share of the layer; corners are then drawn in and the patch tilts.
 const DRAWN_IN: f64 = 0.15;
 /// A move must gain at least this, square degrees times square millimetres: nothing anybody could see.
@@ -257,7 +261,6 @@ impl<'a> Functional<'a> {
     }
 
     /// The whole value.
-    #[cfg(test)]
     fn value(&self, field: &[[f64; 3]]) -> f64 {
         let unary: f64 = self.own_patches().map(|i| self.unary(i, &field[i])).sum();
         let seams: f64 = self
@@ -288,20 +291,17 @@ impl<'a> Functional<'a> {
         &self.incident[i]
     }
 
-    /// Takes the proposal where that lowers the functional most, over all choices of its patches at once: those that are
-    /// `stale`, and what hangs together with them through patches it would change. Gives the patches that changed. `variable` is room
-    /// for one number a patch, all `None`, and is left so.
-    fn fuse(
+    /// The part of a proposal that lowers the functional most, over all choices of its patches at once. `variable` is room for
+    /// one number a patch, all `None`, and is left so.
+    fn best_part(
         &self,
-        field: &mut PatchDepths,
+        field: &PatchDepths,
         proposal: &[LevelProposal],
-        stale: impl Fn(OwnPatch) -> bool,
         variable: &mut [Option<usize>],
-    ) -> Vec<OwnPatch> {
+    ) -> Vec<LevelProposal> {
         let differs =
             |(i, y): &&LevelProposal| (0..3).any(|k| (y[k] - field[*i][k]).abs() > self.same());
         let members: Vec<LevelProposal> = proposal.iter().filter(differs).copied().collect();
-        let members = self.around(members, stale, variable);
         for (v, (i, _)) in members.iter().enumerate() {
             variable[*i] = Some(v);
         }
@@ -314,49 +314,27 @@ impl<'a> Functional<'a> {
         }
         members.iter().for_each(|(i, _)| variable[*i] = None);
         let taken = energy.minimise();
-        let mut changed: Vec<LevelProposal> = members
-            .into_iter()
-            .zip(taken)
-            .filter_map(|(m, take)| take.then_some(m))
-            .collect();
-        let ids: Vec<OwnPatch> = changed.iter().map(|c| c.0).collect();
+        let chosen = members.into_iter().zip(taken);
+        chosen.filter_map(|(m, take)| take.then_some(m)).collect()
+    }
+
+    /// Takes a move if it gains; gives the patches that changed.
+    fn take(&self, field: &mut PatchDepths, mut wanted: Vec<LevelProposal>) -> Vec<OwnPatch> {
+        let ids: Vec<OwnPatch> = wanted.iter().map(|c| c.0).collect();
         let before = self.share(&ids, field);
-        let swap = |field: &mut PatchDepths, changed: &mut [LevelProposal]| {
-            changed
+        let swap = |field: &mut PatchDepths, wanted: &mut [LevelProposal]| {
+            wanted
                 .iter_mut()
                 .for_each(|(i, y)| std::mem::swap(&mut field[*i], y));
         };
-        swap(field, &mut changed);
+        swap(field, &mut wanted);
         // Ties that rounding decides would go to and fro for ever.
         if self.share(&ids, field) < before - GAIN {
             ids
         } else {
-            swap(field, &mut changed);
+            swap(field, &mut wanted);
             Vec::new()
         }
-    }
-
-    /// The members that hang together with `stale` ones through others. `variable` as of [`Self::fuse`].
-    fn around(
-        &self,
-        members: Vec<LevelProposal>,
-        stale: impl Fn(OwnPatch) -> bool,
-        variable: &mut [Option<usize>],
-    ) -> Vec<LevelProposal> {
-        for (v, (i, _)) in members.iter().enumerate() {
-            variable[*i] = Some(v);
-        }
-        let mut open: Vec<OwnPatch> = members.iter().map(|m| m.0).filter(|i| stale(*i)).collect();
-        open.iter().for_each(|i| variable[*i] = None);
-        while let Some(i) = open.pop() {
-            for n in self.incident(i) {
-                let beside = self.local(&self.seams[*n]).into_iter();
-                open.extend(beside.filter(|j| variable[*j].take().is_some()));
-            }
-        }
-        // What still has its number was not reached.
-        let reached = |m: &LevelProposal| variable[m.0].take().is_none();
-        members.into_iter().filter(reached).collect()
     }
 
     /// What some patches and all their seams cost.
@@ -393,14 +371,14 @@ impl<'a> Functional<'a> {
         let s = &self.seams[n];
         let [a, b] = self.local(s);
         let (old_a, old_b) = (&field[a], &field[b]);
-        let old = self.seam(s, old_a, old_b);
+        let old = || self.seam(s, old_a, old_b);
         match [variable[a], variable[b]] {
-            [None, _] => energy.unary(v, old, self.seam(s, old_a, &members[v].1)),
-            [_, None] => energy.unary(v, old, self.seam(s, &members[v].1, old_b)),
+            [None, _] => energy.unary(v, old(), self.seam(s, old_a, &members[v].1)),
+            [_, None] => energy.unary(v, old(), self.seam(s, &members[v].1, old_b)),
             [Some(i), Some(j)] if v == i.max(j) => {
                 let (new_a, new_b) = (&members[i].1, &members[j].1);
                 let cost = [
-                    old,
+                    old(),
                     self.seam(s, old_a, new_b),
                     self.seam(s, new_a, old_b),
                     self.seam(s, new_a, new_b),
@@ -444,33 +422,56 @@ impl<'a> Functional<'a> {
         levels
     }
 
-    /// Sweeps all levels over the field until nothing changes. A level is tried again only where something changed since it was last
-    /// tried: what hangs together with nothing new has its best choice already.
+    /// Sweeps all levels over the field until little is gained. A level is tried again only if something changed within its
+    /// reach since it was last tried. Two levels so far apart that no patch has both are tried side by side, and the farther one's move is
+    /// dropped if it gains nothing any more once the nearer one's is taken. With more than two at once depths grow from more places than
+    /// one, and an agamograph ended at 1.7 degrees instead of 1.0.
     pub(crate) fn descend(&self, field: &mut PatchDepths) {
         let levels = self.levels();
-        let mut variable = vec![None; self.range.len()];
+        let apart = self
+            .levels_of_one_patch(&levels)
+            .max(levels.len().div_ceil(2));
         // The move at which each patch last changed, and at which each level was last tried.
         let mut changed_at = vec![0u32; self.range.len()];
         let mut tried_at = vec![0u32; levels.len()];
-        let mut now = 1;
+        let (mut now, mut value) = (1, f64::INFINITY);
         for sweep in 0..SWEEPS {
-            let mut any = false;
-            for (k, members) in levels.iter().enumerate() {
-                let tried = std::mem::replace(&mut tried_at[k], now + 1);
-                now += 1;
-                let stale = |i: OwnPatch| {
+            for first in 0..apart.min(levels.len()) {
+                let near = |i: OwnPatch, tried: u32| {
                     let seams = self.incident(i).iter();
-                    let mut beside = seams.flat_map(|n| self.local(&self.seams[*n]));
-                    sweep == 0 || beside.any(|j| changed_at[j] > tried)
+                    let mut patches = seams.flat_map(|n| self.local(&self.seams[*n]));
+                    patches.any(|j| changed_at[j] > tried)
                 };
-                let changed = self.fuse(field, members, stale, &mut variable);
-                any |= !changed.is_empty();
-                changed.iter().for_each(|i| changed_at[*i] = now);
+                let open =
+                    |k: &usize| sweep == 0 || levels[*k].iter().any(|m| near(m.0, tried_at[*k]));
+                let tried: Vec<usize> = (first..levels.len()).step_by(apart).filter(open).collect();
+                let room = || vec![None; self.range.len()];
+                let best = |variable: &mut Vec<Option<usize>>, k: &usize| {
+                    self.best_part(field, &levels[*k], variable)
+                };
+                let moves: Vec<Vec<LevelProposal>> =
+                    tried.par_iter().map_init(room, best).collect();
+                now += 1;
+                tried.iter().for_each(|k| tried_at[*k] = now);
+                for wanted in moves {
+                    now += 1;
+                    let changed = self.take(field, wanted);
+                    changed.iter().for_each(|i| changed_at[*i] = now);
+                }
             }
-            if !any {
+            let before = std::mem::replace(&mut value, self.value(field));
+            if before - value <= LITTLE * value {
                 return;
             }
         }
+    }
+
+    /// At how many levels a patch is at most.
+    fn levels_of_one_patch(&self, levels: &[Vec<LevelProposal>]) -> usize {
+        let mut count = vec![0; self.range.len()];
+        let members = levels.iter().flatten();
+        members.for_each(|(i, _)| count[*i] += 1);
+        count.into_iter().max().unwrap_or(0).max(1)
     }
 }
 

@@ -41,6 +41,8 @@ pub(crate) struct Contacts {
     binding: Vec<usize>,
     l: Vec<Vec<f64>>,
     v: Vec<Vec<f64>>,
+    /// `S + V'V`, lower triangle by rows. Binding adds to it; letting go sums it anew, as what is taken off could leave nothing but rounding.
+    freedom: Vec<Vec<f64>>,
 }
 
 /// What befalls when a row's multiplier grows by 1.
@@ -53,12 +55,14 @@ struct Direction {
 
 impl Contacts {
     pub(crate) fn new(stiffness: Vec<f64>) -> Self {
-        Self {
+        let mut made = Self {
             d: vec![0.0; stiffness.len()],
             t: vec![0.0; stiffness.len()],
             stiffness,
             ..Self::default()
-        }
+        };
+        made.sum_freedom();
+        made
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -229,6 +233,7 @@ impl Contacts {
         }
         v.iter_mut().for_each(|v| *v /= root);
         half.push(root);
+        add_square(&mut self.freedom, &v);
         self.l.push(half);
         self.v.push(v);
         self.binding.push(p);
@@ -256,6 +261,19 @@ impl Contacts {
             self.l[j].truncate(j + 1);
         }
         self.v.pop();
+        self.sum_freedom();
+    }
+
+    fn sum_freedom(&mut self) {
+        let rows = self.stiffness.iter().enumerate();
+        self.freedom = rows
+            .map(|(g, s)| {
+                let mut row = vec![0.0; g + 1];
+                row[g] = *s;
+                row
+            })
+            .collect();
+        self.v.iter().for_each(|v| add_square(&mut self.freedom, v));
     }
 
     /// `z` and `t` with `K_FF z - H_F t = L a` and `H_F'z + S t = b`.
@@ -270,18 +288,9 @@ impl Contacts {
     /// `(S + V'V)^-1 (b - V'a)`.
     fn free(&self, a: &[f64], mut b: Vec<f64>) -> Vec<f64> {
         let n = b.len();
-        let mut m = vec![vec![0.0; n]; n];
-        (0..n).for_each(|g| m[g][g] = self.stiffness[g]);
+        let mut m = self.freedom.clone();
         for (a, v) in a.iter().zip(&self.v) {
-            for i in 0..n {
-                b[i] -= v[i] * a;
-                if v[i] != 0.0 {
-                    m[i][..=i]
-                        .iter_mut()
-                        .zip(v)
-                        .for_each(|(m, w)| *m += v[i] * w);
-                }
-            }
+            b.iter_mut().zip(v).for_each(|(b, v)| *b -= v * a);
         }
         for i in 0..n {
             for j in 0..=i {
@@ -312,6 +321,13 @@ impl Contacts {
 
     fn backward(&self, a: Vec<f64>) -> Vec<f64> {
         backward(&self.l, a)
+    }
+}
+
+/// Adds `v v'` to a lower triangle by rows.
+fn add_square(m: &mut [Vec<f64>], v: &[f64]) {
+    for (row, x) in m.iter_mut().zip(v).filter(|(_, x)| **x != 0.0) {
+        row.iter_mut().zip(v).for_each(|(m, y)| *m += x * y);
     }
 }
 
