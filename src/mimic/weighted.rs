@@ -7,6 +7,10 @@ use sprs::{CsMat, TriMat};
 /// `eps`: what keeps a singular `P` invertible where no line holds it. The mean diagonal of `P` is about 1.
 const PROXIMAL: f64 = 1e-9;
 
+/// A line ties each of its terms to all others. Bounds and orders tie up to 28 pairs each, some ten times as many as `P`; the mean of all
+/// vertices of a mesh ties thousands of times as many and would fill the memory.
+const FILL: usize = 100;
+
 /// A line of a program: an equality or a row.
 pub(crate) type Terms = [(usize, f64)];
 
@@ -20,9 +24,13 @@ pub(crate) struct Weighted {
 }
 
 impl Weighted {
-    /// Of the lines of a program; nothing if memory runs out.
+    /// Of the lines of a program; nothing if memory runs out, or if they tie more than [`FILL`] times as many pairs as `P` does.
     pub(crate) fn new(program: &Program) -> Option<Self> {
         let n = program.variables;
+        let tied: usize = program.lines().map(|terms| terms.len().pow(2)).sum();
+        if tied > FILL * (program.quadratic.nnz() + program.lines().count()) {
+            return None;
+        }
         let mut triplets = TriMat::new((n, n));
         for (v, (i, j)) in &program.quadratic {
             triplets.add_triplet(i, j, *v);

@@ -252,6 +252,26 @@ fn a_contradiction_is_left_to_the_interior_point() {
 }
 
 #[test]
+fn lines_that_would_fill_the_matrix_are_left_to_the_conic_solver() {
+    // Least squares with a given mean: all unknowns are that mean.
+    const COUNT: usize = 2000;
+    let mut squares = sprs::TriMat::new((COUNT, COUNT));
+    (0..COUNT).for_each(|i| squares.add_triplet(i, i, 1.0));
+    let share = 1.0 / COUNT as f64;
+    let program = Program {
+        variables: COUNT,
+        quadratic: squares.to_csc(),
+        factor: Vec::new(),
+        linear: vec![0.0; COUNT],
+        equalities: vec![((0..COUNT).map(|v| (v, share)).collect(), 0.25)],
+        rows: Vec::new(),
+    };
+    assert!(Interior::new(&program).is_none());
+    let solution = solve_by(&program, Method::WarmInterior).expect("feasible");
+    assert!(solution.u.iter().all(|u| (u - 0.25).abs() < 1e-7));
+}
+
+#[test]
 fn an_indefinite_form_is_refused() {
     let mut bent = Balls::new(1, 0);
     bent.program.quadratic.data_mut()[0] = -1.0;
