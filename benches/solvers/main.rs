@@ -10,10 +10,10 @@
 //! `l.txt` and `u.txt` with a number a line, for `min u'Pu / 2 + q'u` subject to `l <= A u <= u`; and `ours.json` with the seconds and
 //! the objective of this crate.
 
-mod ball;
 mod matrices;
 
 use pillarforest::diag::Diagnostic;
+use pillarforest::figures::bumpy_ball;
 use pillarforest::figures::measure::{changed, sights};
 use pillarforest::kinds::{height_field_depths, height_field_program};
 use pillarforest::mimic::{
@@ -107,7 +107,7 @@ fn run(asked: &Asked) -> Result<(), String> {
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for count in &asked.vertices {
-        let file = ball::obj(*count);
+        let file = bumpy_ball(*count);
         let read = |_: &str| Ok::<_, Diagnostic>(file.clone());
         let scene = changed(SCENE, &[] as &[&str], &read)?;
         let field = SupportField::new(&scene.supports);

@@ -151,6 +151,9 @@ pub(super) enum Command {
     },
     /// Make the figures of the paper again: scenes, pictures, numbers, and a page with what the paper says beside them
     Figures(FigureArgs),
+    /// Measure this machine: the examples of the paper's Table 1 beside its times, the stages of a forest, and how time grows with the
+    /// model
+    Bench(BenchArgs),
     /// Print the whole scene language with its defaults
     Schema,
     /// Print a completion script for a shell
@@ -201,6 +204,38 @@ pub(super) struct FigureArgs {
     pub models: Vec<PathBuf>,
     /// Directory for the page and all files
     #[arg(short, long, default_value = "out/figures", value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+    /// Threads to use [default: all cores]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum BenchPart {
+    /// The stages of a forest of four creatures
+    Stages,
+    /// A ball on a plate with 10,000 vertices and more, by three energies
+    Growth,
+    /// The examples of the paper's Table 1, about five minutes
+    Table1,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(super) struct BenchArgs {
+    /// What to measure [default: all]
+    #[arg(value_enum, value_name = "PART")]
+    pub parts: Vec<BenchPart>,
+    /// Where the scenes of the figures lie
+    #[arg(long, default_value = "scenes/paper", value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub scenes: PathBuf,
+    /// Vertices of the largest model to see how time grows
+    #[arg(long, default_value_t = 1_000_000, value_name = "N")]
+    pub most: usize,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Directory for what is built
+    #[arg(short, long, default_value = "out/bench", value_hint = ValueHint::DirPath)]
     pub output: PathBuf,
     /// Threads to use [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -9,7 +9,7 @@ use super::messages::Messages;
 use super::plan::{self, Search};
 use super::progress::Reporter;
 use super::write::Destination;
-use super::{figures, init, inspect};
+use super::{bench, figures, init, inspect};
 use clap::CommandFactory;
 use pillarforest::compile::{self, Build, Drawn, Progress, Stop};
 use pillarforest::diag::Diagnostic;
@@ -63,6 +63,7 @@ pub(super) fn run(cli: &Cli, messages: &Messages) -> u8 {
             }
         }
         Command::Figures(args) => figures::run(messages, &cli.global, args),
+        Command::Bench(args) => bench::run(messages, &cli.global, args),
         Command::Schema => say(&scene::schema()),
         Command::Completions { shell } => completions(*shell),
     }

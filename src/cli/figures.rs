@@ -24,12 +24,7 @@ pub(super) fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8
         Ok(wanted) => wanted,
         Err(problems) => return fail(messages, &problems, None, WRONG_USAGE),
     };
-    if !args.scenes.is_dir() {
-        let problem = Diagnostic::error(format!(
-            "there is no folder \"{}\" with the scenes of the figures",
-            args.scenes.display()
-        ))
-        .help("run it where the program's sources lie, or say where: `--scenes DIR`");
+    if let Err(problem) = has_scenes(&args.scenes) {
         return fail(messages, &[problem], None, WRONG_INPUT);
     }
     let destination = match Destination::new(Some(&args.output), Path::new("figures"), &[]) {
@@ -62,6 +57,18 @@ pub(super) fn run(messages: &Messages, global: &Global, args: &FigureArgs) -> u8
                 said => said,
             }
         }
+    }
+}
+
+/// That the scenes of the figures lie there.
+pub(super) fn has_scenes(folder: &Path) -> Result<(), Diagnostic> {
+    match folder.is_dir() {
+        true => Ok(()),
+        false => Err(Diagnostic::error(format!(
+            "there is no folder \"{}\" with the scenes of the figures",
+            folder.display()
+        ))
+        .help("run it where the program's sources lie, or say where: `--scenes DIR`")),
     }
 }
 
@@ -131,7 +138,7 @@ fn told_of(done: &Done) -> String {
 }
 
 /// Builds one case with its files.
-fn built(job: &Job, args: &FigureArgs) -> Result<Made, String> {
+pub(super) fn built(job: &Job, args: &FigureArgs) -> Result<Made, String> {
     let scene = scene_path(&args.scenes, &job.scene);
     let folder = args.output.join(&job.folder);
     let program = std::env::current_exe().map_err(|e| format!("cannot find this program: {e}"))?;

@@ -5,6 +5,7 @@
 //! does not hold that a build promises, 4 the program failed, or the system did under it (a full disk).
 
 mod args;
+mod bench;
 mod commands;
 mod ending;
 mod fault;

@@ -46,7 +46,7 @@ fn vertices(view: &View, most: usize) -> usize {
 /// 20 to 30 pillars (two cores, 2026). Times fall within half and twice of it.
 fn per_vertex(relief: &ReliefKind) -> f64 {
     match relief {
-        ReliefKind::Whole(..) => 2e-3,
+        ReliefKind::Whole(..) => 5e-4,
         ReliefKind::HeightField(Energy::Curvature(options)) => {
             8e-5 + 6e-5 * f64::from(options.iterate)
         }

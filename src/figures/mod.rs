@@ -10,6 +10,7 @@
 //!
 //! What comparisons of energies measure without building anything ([`measure`]) is here too, for benchmarks.
 
+mod ball;
 mod compare;
 mod energies;
 mod figure;
@@ -22,17 +23,21 @@ pub mod measure;
 mod method;
 mod page;
 mod reliefs;
+mod scaling;
 mod table;
 mod table_one;
 mod workshop;
 
+pub use ball::bumpy_ball;
 pub use figure::{Done, Figure};
 pub use findings::{Case, Conclusion, Findings, Picture};
 pub use job::Job;
 pub use json::json;
 pub use made::Made;
 pub use page::page;
+pub use scaling::{PLATE, SIZES, WAYS, exponent};
 pub use table::table;
+pub use table_one::TIMES;
 pub use workshop::{BuildJob, Workshop};
 
 use crate::compile::OutputFile;
@@ -56,7 +61,7 @@ pub const FIGURES: [Figure; 19] = [
     reliefs::HERD,
     light::SUN_AND_CLOUD,
     light::FLASH,
-    table_one::TIMES,
+    TIMES,
     energies::CONIC,
 ];
 

@@ -6,7 +6,7 @@ use crate::diagram::raster;
 use crate::render::caster::{DARK, SPAN};
 use crate::render::inks::{QUIET, TEXT};
 use crate::render::light_figures::LightLikeness;
-use crate::render::shading::{self, Rgb};
+use crate::render::shading::{self, Rgb, differ};
 use crate::render::stage::{FLASH_LAMP, Lit, SIDE, SKY_LAMP, SUNS_DEG, Stage};
 use crate::view::View;
 use glam::DVec2;
@@ -36,11 +36,20 @@ pub(super) fn sheet(
     pixels: &[[Option<Lit>; 2]],
     figures: &[LightLikeness],
 ) -> Vec<u8> {
+    let measured: Vec<Panels> = pixels.par_iter().map(panels).collect();
+    let calm: Vec<bool> = (0..measured.len())
+        .into_par_iter()
+        .map(|k| is_calm(&measured, k))
+        .collect();
     let panels: Vec<Panels> = (0..PANEL * PANEL)
         .into_par_iter()
         .map(|k| {
             let [x, y] = [k % PANEL, k / PANEL].map(|i| (i as f64 + 0.5) / FINER as f64);
-            panels(&stage.lit_near(x, y, &pixels[y as usize * SIDE + x as usize]))
+            let middle = y as usize * SIDE + x as usize;
+            match calm[middle] {
+                true => between(&measured, x, y),
+                false => panels(&stage.lit_near(x, y, &pixels[middle])),
+            }
         })
         .collect();
     let across = COLUMNS * PANEL + (COLUMNS + 1) * GAP;
@@ -57,6 +66,32 @@ pub(super) fn sheet(
     captions(&mut drawing, view, figures);
     drawing.paint(&mut pixmap, 1.0);
     raster::encode(&pixmap)
+}
+
+/// Whether a measured pixel looks much like all around it: there nothing is cast again.
+fn is_calm(measured: &[Panels], k: usize) -> bool {
+    let (x, y) = (k % SIDE, k / SIDE);
+    let near = |i: usize| i.saturating_sub(1)..(i + 2).min(SIDE);
+    let mut around = near(y).flat_map(|v| near(x).map(move |u| v * SIDE + u));
+    around.all(|other| !differ(&measured[k], &measured[other]))
+}
+
+/// The colours at a place, in pixels from the top left corner, from the four pixels whose middles are nearest.
+fn between(measured: &[Panels], x: f64, y: f64) -> Panels {
+    let place = |at: f64| {
+        let from = (at - 0.5).clamp(0.0, (SIDE - 1) as f64);
+        let first = (from as usize).min(SIDE - 2);
+        (first, (from - first as f64) as f32)
+    };
+    let ((u, right), (v, down)) = (place(x), place(y));
+    let corners = [0, 1, SIDE, SIDE + 1].map(|step| &measured[v * SIDE + u + step]);
+    std::array::from_fn(|panel| {
+        std::array::from_fn(|i| {
+            let [a, b, c, d] = corners.map(|corner| corner[panel][i]);
+            let (above, below) = (a + right * (b - a), c + right * (d - c));
+            above + down * (below - above)
+        })
+    })
 }
 
 /// Left edge of a column, pixels.

@@ -106,7 +106,8 @@ pub(super) fn smoothed<const N: usize>(
         .collect()
 }
 
-fn differ<const N: usize>(a: &[Rgb; N], b: &[Rgb; N]) -> bool {
+/// Whether two pixels, each of `N` pictures, differ by more than [`JUMP`].
+pub(super) fn differ<const N: usize>(a: &[Rgb; N], b: &[Rgb; N]) -> bool {
     a.as_flattened()
         .iter()
         .zip(b.as_flattened())

@@ -616,3 +616,31 @@ fn the_sides_of_a_model_are_drawn_with_the_words_to_write() {
     assert!(out.contains("out/cube-obj-sides.png"), "{out}");
     assert_eq!(run(folder.path(), &["inspect", "--views", "none.obj"]).0, 1);
 }
+
+#[test]
+fn what_builds_take_is_measured() {
+    let folder = folder("");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/paper");
+    let scenes = scenes.to_str().expect("a path");
+    let args = ["bench", "growth", "--most", "10000", "--json"];
+    let (code, out, err) = run(folder.path(), &[&args[..], &["--scenes", scenes]].concat());
+    assert_eq!(code, 0, "{err}");
+    let told: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+    let scaling = told["scaling"].as_array().expect("a list");
+    assert_eq!(scaling.len(), 3);
+    for way in scaling {
+        let builds = way["builds"].as_array().expect("a list");
+        assert_eq!(builds.len(), 1);
+        assert_eq!(builds[0]["vertices"], 10_242.0);
+        let [whole, program] = ["seconds", "program_seconds"].map(|s| builds[0][s].as_f64());
+        assert!(0.0 < program.unwrap() && program < whole, "{way}");
+        assert!(way["exponent"].is_null(), "of one size");
+    }
+    assert!(told["forest"].is_null());
+    let (code, _, err) = run(folder.path(), &["bench", "stages"]);
+    assert_eq!(code, 1, "{err}");
+    assert!(
+        err.contains("scenes/paper") && err.contains("--scenes"),
+        "{err}"
+    );
+}

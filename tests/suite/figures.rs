@@ -351,3 +351,14 @@ fn a_figure_is_made_from_real_builds() {
         assert!(out.path().join(path).exists(), "{path}");
     }
 }
+
+#[test]
+fn the_exponent_of_a_power_is_found() {
+    let points: Vec<(f64, f64)> = [10.0f64, 100.0, 1000.0]
+        .iter()
+        .map(|n| (*n, 3.0 * n.powf(1.2)))
+        .collect();
+    let exponent = pillarforest::figures::exponent(&points).expect("three sizes");
+    assert!((exponent - 1.2).abs() < 1e-12, "{exponent}");
+    assert_eq!(pillarforest::figures::exponent(&points[..1]), None);
+}

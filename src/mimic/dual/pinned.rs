@@ -34,11 +34,14 @@ pub(crate) struct Pinned {
 }
 
 impl Pinned {
-    /// Pins and factorises a form given by its upper triangle; nothing if it is indefinite.
-    pub(crate) fn new(upper: &CsMat<f64>) -> Option<Self> {
+    /// Pins and factorises a form given by its upper triangle; nothing if it is indefinite or needs more than `most` pins.
+    pub(crate) fn new(upper: &CsMat<f64>, most: usize) -> Option<Self> {
         let n = upper.cols();
         let sigma = mean_diagonal(upper, n);
         let (pin, places) = pins(upper, SOFT * sigma);
+        if places.len() > most {
+            return None;
+        }
         let mut pinned = upper.clone();
         for p in &places {
             let at = pinned.nnz_index(*p, *p)?;

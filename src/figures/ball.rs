@@ -1,11 +1,10 @@
-//! A bumpy ball of any size, evenly meshed.
+//! A bumpy ball of any size, evenly meshed: what times are measured on.
 
 use glam::DVec3;
 use std::collections::HashMap;
-use std::fmt::Write;
 
 /// A geodesic ball with waves on it, as an OBJ file; `10 f^2 + 2` vertices for the least `f` that gives as many as wanted.
-pub(crate) fn obj(vertices: usize) -> Vec<u8> {
+pub fn bumpy_ball(vertices: usize) -> Vec<u8> {
     let frequency = ((vertices.saturating_sub(2)) as f64 / 10.0)
         .sqrt()
         .ceil()
@@ -14,10 +13,10 @@ pub(crate) fn obj(vertices: usize) -> Vec<u8> {
     let mut text = String::new();
     for p in points {
         let p = bumpy(p);
-        writeln!(text, "v {} {} {}", p.x, p.y, p.z).expect("a string");
+        text.push_str(&format!("v {} {} {}\n", p.x, p.y, p.z));
     }
     for [a, b, c] in faces {
-        writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).expect("a string");
+        text.push_str(&format!("f {} {} {}\n", a + 1, b + 1, c + 1));
     }
     text.into_bytes()
 }
@@ -42,7 +41,7 @@ fn geodesic(f: usize) -> (Vec<DVec3>, Vec<[usize; 3]>) {
     let side = 2.0f64;
     let near = |a: usize, b: usize| (corners[a].distance(corners[b]) - side).abs() < 1e-9;
     let (mut points, mut faces) = (Vec::new(), Vec::new());
-    // Points by their weights of corners, which are exact.
+    // Points by their weights of corners, which are exact; never iterated.
     let mut known: HashMap<[(usize, usize); 3], usize> = HashMap::new();
     let triples =
         (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| [a, b, c])));
