@@ -228,9 +228,9 @@ pub(super) struct BenchArgs {
     /// Where the scenes of the figures lie
     #[arg(long, default_value = "scenes/paper", value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub scenes: PathBuf,
-    /// Vertices of the largest model to see how time grows
-    #[arg(long, default_value_t = 1_000_000, value_name = "N")]
-    pub most: usize,
+    /// Vertices of the largest model to see how time grows, at least 10000
+    #[arg(long, default_value_t = 1_000_000, value_name = "N", value_parser = clap::value_parser!(u32).range(10_000..))]
+    pub most: u32,
     /// Print one JSON object instead of tables
     #[arg(long)]
     pub json: bool,

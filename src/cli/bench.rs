@@ -98,7 +98,7 @@ impl Bench<'_> {
     }
 
     fn scaling(&self) -> Result<Vec<Scaling>, String> {
-        let sizes = SIZES.into_iter().filter(|s| *s <= self.args.most);
+        let sizes = SIZES.into_iter().filter(|s| *s <= self.args.most as usize);
         let mut all: Vec<Scaling> = WAYS
             .iter()
             .map(|(way, _)| Scaling {

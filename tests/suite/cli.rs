@@ -637,6 +637,9 @@ fn what_builds_take_is_measured() {
         assert!(way["exponent"].is_null(), "of one size");
     }
     assert!(told["forest"].is_null());
+    let (code, _, err) = run(folder.path(), &["bench", "growth", "--most", "5"]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("10000"), "{err}");
     let (code, _, err) = run(folder.path(), &["bench", "stages"]);
     assert_eq!(code, 1, "{err}");
     assert!(
