@@ -13,8 +13,8 @@
 mod matrices;
 
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::bumpy_ball;
 use pillarforest::figures::measure::{changed, sights};
+use pillarforest::figures::{PLATE, bumpy_ball};
 use pillarforest::kinds::{height_field_depths, height_field_program};
 use pillarforest::mimic::{
     CurvatureOptions, Energy, FaceWeight, Method, NormalOptions, Program, Solution, solve_by,
@@ -25,11 +25,6 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 const VERTICES: [usize; 4] = [10_000, 40_000, 160_000, 320_000];
-const SCENE: &str = r#"(
-    models: [(name: "ball", file: "ball.obj", place: Fit(height: 80, at: (0, 0, 10)))],
-    views: [(name: "front", eye: (0, -350, 50), models: ["ball"])],
-    supports: [Plate(width: 110, height: 110, depth: (front: 6, back: 2))],
-)"#;
 
 /// Energies by the names of the command line, and how each is solved.
 const ENERGIES: [(&str, Energy, Method); 2] = [
@@ -109,7 +104,7 @@ fn run(asked: &Asked) -> Result<(), String> {
     for count in &asked.vertices {
         let file = bumpy_ball(*count);
         let read = |_: &str| Ok::<_, Diagnostic>(file.clone());
-        let scene = changed(SCENE, &[] as &[&str], &read)?;
+        let scene = changed(PLATE, &[] as &[&str], &read)?;
         let field = SupportField::new(&scene.supports);
         let sight = &sights(&scene, &field)?[0];
         let vertices = sight.image.target.mesh.vertices.len();

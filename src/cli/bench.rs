@@ -1,9 +1,11 @@
-//! `bench`: what builds take on this machine, each by a process of its own, as anybody would run it.
+//! `bench`: what builds take on this machine.
 
-use super::args::{BenchArgs, BenchPart, FigureArgs, Global};
+use super::args::{BenchArgs, BenchPart, Global};
+use super::case_builder::CaseBuilder;
 use super::ending::{FAILED, WRONG_INPUT, WRONG_USAGE, fail, say};
-use super::figures::{built, has_scenes};
-use super::messages::{Messages, tell};
+use super::figures::has_scenes;
+use super::messages::Messages;
+use super::progress::stage_lines;
 use super::write::Destination;
 use pillarforest::compile::OutputFile;
 use pillarforest::diag::Diagnostic;
@@ -11,7 +13,7 @@ use pillarforest::figures::{
     self, Case, Job, Made, PLATE, SIZES, TIMES, WAYS, Workshop, bumpy_ball, exponent,
 };
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The forest whose stages are told.
 const FOREST: &str = "../four-creatures";
@@ -30,12 +32,14 @@ pub(super) fn run(messages: &Messages, global: &Global, args: &BenchArgs) -> u8 
         }
         Err(problem) => return fail(messages, &[problem], None, WRONG_USAGE),
     };
-    let bench = Bench {
-        args,
-        output,
+    let builder = CaseBuilder {
+        scenes: &args.scenes,
+        models: &[],
+        output: &output,
+        jobs: args.jobs,
         quiet: global.quiet,
     };
-    match bench.measured() {
+    match (Bench { args, builder }).measured() {
         Ok(measured) if args.json => say(&format!("{}\n", measured.json())),
         Ok(measured) => say(&measured.tables()),
         Err(why) => fail(messages, &[Diagnostic::error(why)], None, FAILED),
@@ -44,8 +48,7 @@ pub(super) fn run(messages: &Messages, global: &Global, args: &BenchArgs) -> u8 
 
 struct Bench<'a> {
     args: &'a BenchArgs,
-    output: PathBuf,
-    quiet: bool,
+    builder: CaseBuilder<'a>,
 }
 
 /// Everything that was measured; empty what was not asked for.
@@ -67,7 +70,7 @@ impl Bench<'_> {
         Ok(Measured {
             machine: machine(self.args.jobs),
             forest: match self.asks_for(BenchPart::Stages) {
-                true => Some(self.build(&self.args.scenes, FOREST, &[], "forest")?),
+                true => Some(self.builder.build(&job(FOREST, &[], "forest".into()))?),
                 false => None,
             },
             scaling: match self.asks_for(BenchPart::Growth) {
@@ -86,10 +89,7 @@ impl Bench<'_> {
     }
 
     fn examples(&self) -> Result<Vec<Case>, String> {
-        let mut build = |job: &Job| {
-            self.announce(&job.folder);
-            built(job, &self.builder(&self.args.scenes))
-        };
+        let mut build = |job: &Job| self.builder.build(job);
         let table = figures::make(TIMES, &mut Workshop::new(&mut build));
         match table.failure {
             Some(why) => Err(why),
@@ -107,47 +107,31 @@ impl Bench<'_> {
             })
             .collect();
         for size in sizes {
-            let folder = self.output.join(format!("ball-{size}"));
+            let folder = self.builder.output.join(format!("ball-{size}"));
             let files = [
                 OutputFile::new("ball.obj", bumpy_ball(size)),
                 OutputFile::new("plate.ron", PLATE.as_bytes().to_vec()),
             ];
             let scenes = Destination::Directory(folder.clone());
             scenes.write(&files).map_err(|problem| problem.message)?;
+            let builder = CaseBuilder {
+                scenes: &folder,
+                ..self.builder
+            };
             for (k, (_, set)) in WAYS.iter().enumerate() {
-                let made = self.build(&folder, "plate", &[set], &format!("ball-{size}/{k}"))?;
+                let made = builder.build(&job("plate", &[set], format!("ball-{size}/{k}")))?;
                 all[k].builds.push(made);
             }
         }
         Ok(all)
     }
+}
 
-    fn build(&self, scenes: &Path, scene: &str, sets: &[&str], to: &str) -> Result<Made, String> {
-        self.announce(to);
-        let job = Job {
-            scene: scene.to_owned(),
-            sets: sets.iter().map(|s| (*s).to_owned()).collect(),
-            folder: to.to_owned(),
-        };
-        built(&job, &self.builder(scenes))
-    }
-
-    /// How a build is started.
-    fn builder(&self, scenes: &Path) -> FigureArgs {
-        FigureArgs {
-            names: Vec::new(),
-            list: false,
-            scenes: scenes.to_owned(),
-            models: Vec::new(),
-            output: self.output.clone(),
-            jobs: self.args.jobs,
-        }
-    }
-
-    fn announce(&self, what: &str) {
-        if !self.quiet {
-            tell(&format!("       {what}"));
-        }
+fn job(scene: &str, sets: &[&str], folder: String) -> Job {
+    Job {
+        scene: scene.to_owned(),
+        sets: sets.iter().map(|s| (*s).to_owned()).collect(),
+        folder,
     }
 }
 
@@ -259,19 +243,13 @@ impl Measured {
 }
 
 fn stages(forest: &Made) -> String {
-    let mut text = format!("\nStages of {}\n\n", forest.scene);
-    for (stage, seconds) in &forest.stages {
-        text.push_str(&format!("{seconds:>8.2} s  {stage}\n"));
-    }
-    text.push_str(&format!("{:>8.2} s  in all\n", forest.seconds));
-    let peak = forest.peak_mb;
-    text.extend(peak.map(|mb| format!("{mb:>8.0} MB largest memory\n")));
-    text
+    let lines = stage_lines(&forest.stages, forest.seconds, forest.peak_mb);
+    format!("\nStages of {}\n\n{}\n", forest.scene, lines.join("\n"))
 }
 
 fn beside_the_paper(examples: &[Case]) -> String {
     let mut text = format!(
-        "\nTable 1 of the paper (a quad-core at 3.4 GHz) and here: vertices, and seconds of the optimisation\n\n         {:<28} {:>8} {:>8} {:>9} {:>8} {:>8} {:>8} {:>8}\n",
+        "\nTable 1 of the paper (a quad-core at 3.4 GHz) and here: vertices, and seconds of the optimisation\n\n{:<28} {:>8} {:>8} {:>9} {:>8} {:>8} {:>8} {:>8}\n",
         "", "paper", "s", "here", "s", "all, s", "MB", "degrees"
     );
     for case in examples {

@@ -1,17 +1,14 @@
-//! `figures`: every case is a build of its own, by this program, so that its time and memory are those that anybody would measure.
+//! `figures`: builds the cases of the figures, writes the page, and says what holds.
 
 use super::args::{FigureArgs, Global};
+use super::case_builder::CaseBuilder;
 use super::ending::{FAILED, NOT_PRINTABLE, WELL, WRONG_INPUT, WRONG_USAGE, fail, say};
-use super::load::libraries;
 use super::messages::{Messages, tell};
 use super::write::Destination;
 use pillarforest::diag::Diagnostic;
-use pillarforest::figures::{self, Done, FIGURES, FILES, Figure, Job, Made, Workshop};
-use pillarforest::report::Report;
+use pillarforest::figures::{self, Done, FIGURES, FILES, Figure, Job, Workshop};
 use pillarforest::scene::nearest;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 use std::time::Instant;
 
 /// Makes the figures; gives the exit code.
@@ -93,12 +90,14 @@ fn wanted(names: &[String]) -> Result<Vec<Figure>, Vec<Diagnostic>> {
 }
 
 fn made(wanted: &[Figure], args: &FigureArgs, global: &Global) -> Vec<Done> {
-    let mut build = |job: &Job| {
-        if !global.quiet {
-            tell(&format!("       {}", job.folder));
-        }
-        built(job, args)
+    let builder = CaseBuilder {
+        scenes: &args.scenes,
+        models: &args.models,
+        output: &args.output,
+        jobs: args.jobs,
+        quiet: global.quiet,
     };
+    let mut build = |job: &Job| builder.build(job);
     let mut workshop = Workshop::new(&mut build);
     let one = |figure: &Figure| {
         if !global.quiet {
@@ -135,96 +134,4 @@ fn told_of(done: &Done) -> String {
         text.push_str(&format!("    NOT MADE: {why}\n"));
     }
     text
-}
-
-/// Builds one case with its files.
-pub(super) fn built(job: &Job, args: &FigureArgs) -> Result<Made, String> {
-    let scene = scene_path(&args.scenes, &job.scene);
-    let folder = args.output.join(&job.folder);
-    let program = std::env::current_exe().map_err(|e| format!("cannot find this program: {e}"))?;
-    let mut command = Command::new(program);
-    command.arg("build").arg(&scene).arg("-o").arg(&folder);
-    command.args(["--force", "--quiet", "--timings", "--diagnostics", "json"]);
-    for library in libraries(&args.models)
-        .iter()
-        .chain([&args.scenes.join("../models")])
-    {
-        command.arg("--models").arg(library);
-    }
-    job.sets
-        .iter()
-        .for_each(|set| _ = command.arg("--set").arg(set));
-    if let Some(jobs) = args.jobs {
-        command.arg("-j").arg(jobs.to_string());
-    }
-    let output = command.stdin(Stdio::null()).output();
-    let output = output.map_err(|e| format!("cannot start a build: {e}"))?;
-    let told = told(&output);
-    if !matches!(output.status.code(), Some(0 | 3)) {
-        return Err(failure(&told, &output));
-    }
-    read(job, &scene, &folder, &told)
-}
-
-/// The path without detours: `scenes/paper/../four-creatures` is `scenes/four-creatures`.
-fn scene_path(scenes: &Path, scene: &str) -> PathBuf {
-    let (folder, name) = match scene.strip_prefix("../") {
-        Some(name) => (scenes.parent().unwrap_or(Path::new("..")), name),
-        None => (scenes, scene),
-    };
-    folder.join(name).with_extension("ron")
-}
-
-/// The JSON objects that a build printed.
-fn told(output: &Output) -> Vec<Value> {
-    let text = String::from_utf8_lossy(&output.stderr);
-    text.lines()
-        .filter_map(|l| serde_json::from_str(l).ok())
-        .collect()
-}
-
-fn failure(told: &[Value], output: &Output) -> String {
-    let errors = told.iter().filter(|v| v["severity"] == "error");
-    let errors: Vec<&str> = errors.filter_map(|v| v["message"].as_str()).collect();
-    match errors[..] {
-        [] => format!("the build ended with {}", output.status),
-        _ => errors.join("; "),
-    }
-}
-
-/// What a build wrote and told.
-fn read(job: &Job, scene: &Path, folder: &Path, told: &[Value]) -> Result<Made, String> {
-    let path = folder.join("report.json");
-    let text = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let report = Report::read(&text).map_err(|e| format!("{}: {e}", path.display()))?;
-    let timings = told.iter().find(|v| v["timings"].is_array());
-    let timings = timings.ok_or("the build told no times")?;
-    let stages = timings["timings"].as_array().into_iter().flatten();
-    let stage = |s: &Value| Some((s["stage"].as_str()?.to_owned(), s["seconds"].as_f64()?));
-    let mut files = Vec::new();
-    list(folder, "", &mut files);
-    files.sort();
-    Ok(Made {
-        job: job.clone(),
-        scene: scene.display().to_string(),
-        report,
-        seconds: timings["seconds"].as_f64().unwrap_or_default(),
-        stages: stages.filter_map(stage).collect(),
-        peak_mb: timings["peak_memory_mb"].as_f64(),
-        files,
-    })
-}
-
-/// All files below a folder, by their paths from it with `/`.
-fn list(folder: &Path, before: &str, files: &mut Vec<String>) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = format!("{before}{}", entry.file_name().to_string_lossy());
-        match entry.file_type() {
-            Ok(kind) if kind.is_dir() => list(&entry.path(), &format!("{name}/"), files),
-            _ => files.push(name),
-        }
-    }
 }

@@ -6,6 +6,7 @@
 
 mod args;
 mod bench;
+mod case_builder;
 mod commands;
 mod ending;
 mod fault;

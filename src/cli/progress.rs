@@ -141,13 +141,8 @@ impl Reporter {
             tell(&told.to_string());
             return;
         }
-        for (name, seconds) in stages {
-            tell(&format!("{seconds:>8.2} s  {name}"));
-        }
-        tell(&format!("{all:>8.2} s  in all"));
-        if let Some(peak) = peak {
-            tell(&format!("{peak:>8.0} MB largest memory"));
-        }
+        let lines = stage_lines(&stages, all, peak);
+        lines.iter().for_each(|line| tell(line));
     }
 
     /// Every stage with its seconds, from when it began until the next one did; and those since the start.
@@ -233,6 +228,14 @@ fn done((from, to): (f64, f64), at_work: Duration, elapsed: Duration) -> f64 {
 fn left(elapsed: Duration, done: f64) -> Option<u64> {
     let left = elapsed.as_secs_f64() * (1.0 - done) / done.max(1e-9);
     (done > TELLING).then(|| left.ceil().max(1.0) as u64)
+}
+
+/// A line for each stage, one for all, and one for the largest memory, if it is known.
+pub(super) fn stage_lines(stages: &[(String, f64)], all: f64, peak_mb: Option<f64>) -> Vec<String> {
+    let stages = stages.iter().map(|(name, s)| format!("{s:>8.2} s  {name}"));
+    let all = format!("{all:>8.2} s  in all");
+    let peak = peak_mb.map(|mb| format!("{mb:>8.0} MB largest memory"));
+    stages.chain([all]).chain(peak).collect()
 }
 
 /// The largest memory of this process so far, megabytes, where the system tells (Linux).

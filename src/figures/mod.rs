@@ -8,7 +8,8 @@
 //!
 //! Statements are about Schueller, Panozzo & Sorkine-Hornung, *Appearance-Mimicking Surfaces* (SIGGRAPH Asia 2014), in our words.
 //!
-//! What comparisons of energies measure without building anything ([`measure`]) is here too, for benchmarks.
+//! Here too, for benchmarks: what comparisons of energies measure without building anything ([`measure`]), and a ball of any size on a
+//! plate ([`bumpy_ball`], [`PLATE`]) to see how time grows.
 
 mod ball;
 mod compare;

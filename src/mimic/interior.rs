@@ -62,6 +62,8 @@ struct Iterate {
 
 /// What is left to do at an iterate.
 struct Residuals {
+    /// Of the program.
+    objective: f64,
     /// `P u + q + A'z + E'y`, `A u + s - b`, `E u - e`.
     dual: Vec<f64>,
     rows: Vec<f64>,
@@ -132,11 +134,11 @@ impl Interior {
         program: &Program,
         at: &mut Iterate,
         least: f64,
-        done: impl Fn(&Iterate, &Program, &Residuals) -> bool,
+        done: impl Fn(&Iterate, &Residuals) -> bool,
     ) -> Option<()> {
         for _ in 0..STEPS {
             let residuals = at.residuals(program);
-            if done(at, program, &residuals) {
+            if done(at, &residuals) {
                 return Some(());
             }
             if at.z.iter().any(|z| *z > CONTRADICTING) {
@@ -223,8 +225,11 @@ impl Interior {
 impl Iterate {
     fn residuals(&self, program: &Program) -> Residuals {
         let mut dual = times(&program.quadratic, &self.u);
-        let linear = dual.iter_mut().zip(&program.linear);
-        linear.for_each(|(d, q)| *d += q);
+        let mut objective = 0.0;
+        for ((d, q), u) in dual.iter_mut().zip(&program.linear).zip(&self.u) {
+            objective += u * (*d / 2.0 + q);
+            *d += q;
+        }
         let multipliers = self.y.iter().chain(&self.z);
         for (terms, m) in program.lines().zip(multipliers) {
             terms.iter().for_each(|(j, v)| dual[*j] += v * m);
@@ -232,6 +237,7 @@ impl Iterate {
         let rows = program.rows.iter().zip(&self.s);
         let equalities = program.equalities.iter();
         Residuals {
+            objective,
             dual,
             rows: rows
                 .map(|(row, s)| sum(&row.terms, &self.u) + s - row.limit)
@@ -242,15 +248,15 @@ impl Iterate {
         }
     }
 
-    fn is_at_restart(&self, _: &Program, residuals: &Residuals) -> bool {
+    fn is_at_restart(&self, residuals: &Residuals) -> bool {
         self.mean() <= 2.0 * RESTART && residuals.broken() <= RESTART
     }
 
-    fn is_optimal(&self, program: &Program, residuals: &Residuals) -> bool {
+    fn is_optimal(&self, residuals: &Residuals) -> bool {
         let gap: f64 = self.s.iter().zip(&self.z).map(|(s, z)| s * z).sum();
         residuals.broken() <= HELD
             && largest(&residuals.dual) <= FLAT
-            && gap <= GAP * objective(program, &self.u).abs().max(1e-5)
+            && gap <= GAP * residuals.objective.abs().max(1e-5)
     }
 
     fn mean(&self) -> f64 {
@@ -305,12 +311,6 @@ impl Residuals {
     fn broken(&self) -> f64 {
         largest(&self.rows).max(largest(&self.equalities))
     }
-}
-
-fn objective(program: &Program, u: &[f64]) -> f64 {
-    let pu = times(&program.quadratic, u);
-    let parts = u.iter().zip(pu.iter().zip(&program.linear));
-    parts.map(|(u, (pu, q))| u * (pu / 2.0 + q)).sum()
 }
 
 fn mean(s: &[f64], z: &[f64]) -> f64 {

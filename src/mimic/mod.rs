@@ -48,5 +48,5 @@ pub use opening::{Opening, Step, Tie};
 pub use ordering::{Order, Orders, TOGETHER_MM, orders};
 pub use program::{Program, Row, RowKind};
 pub use sheets::{sheet_orders, turned_sheets};
-pub use solve::{Method, Solution, SolveError, Solved};
+pub use solve::{Method, Solution, SolveError, Solved, SolvedBlock};
 pub use solving::{solve, solve_by};

@@ -15,7 +15,6 @@
 use crate::geom::{barycentric, segment_crossing};
 use crate::groups::{Anchor, anchor};
 use crate::index::{CellId, FaceId, GroupId, VertexId};
-use crate::mesh::{Edges, TriMesh};
 use crate::sight::Sight;
 use crate::viewmap::{Cell, Target, ViewMap};
 use glam::DVec2;
@@ -262,15 +261,6 @@ pub(super) fn overlapping(
 
 /// Lowest and highest corner of a face's image.
 type ImageBox = (DVec2, DVec2, FaceId);
-
-/// For every face by which of its sides, bits 0 to 2, it is the first of the side's faces: those tell of an edge's crossings.
-pub(super) fn first_sides(mesh: &TriMesh) -> Vec<u8> {
-    let mut first = vec![0; mesh.faces.len()];
-    for edge in Edges::new(mesh).iter() {
-        first[edge[0].face] |= 1 << edge[0].corner;
-    }
-    first
-}
 
 /// The groups of faces, and which groups meet.
 struct FaceGroups {

@@ -4,13 +4,12 @@
 //! micrometres off in depth. So whether a vertex lies inside a face is decided by exact signs, and where edges cross both points are
 //! mixes of the edges' own ends, never of edge-on faces.
 
-use super::ordering::{
-    EdgeEvent, Order, Orders, VertexEvent, first_sides, order, overlapping, sorted,
-};
+use super::ordering::{EdgeEvent, Order, Orders, VertexEvent, order, overlapping, sorted};
 use crate::geom::orient;
 use crate::groups::{Anchor, vertex_anchor};
 use crate::index::{FaceId, GroupId, VertexId};
 use crate::mesh::topology::sides;
+use crate::mesh::{Edges, TriMesh};
 use crate::viewmap::Target;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -65,6 +64,15 @@ fn events(
     let found: Vec<_> = overlapping(target, &faces).map(events).collect();
     let (vertices, edges): (Vec<_>, Vec<_>) = found.into_iter().unzip();
     (vertices.concat(), edges.concat())
+}
+
+/// For every face by which of its sides, bits 0 to 2, it is the first of the side's faces: those tell of an edge's crossings.
+fn first_sides(mesh: &TriMesh) -> Vec<u8> {
+    let mut first = vec![0; mesh.faces.len()];
+    for edge in Edges::new(mesh).iter() {
+        first[edge[0].face] |= 1 << edge[0].corner;
+    }
+    first
 }
 
 /// Vertices of one face strictly inside the image of the other.
